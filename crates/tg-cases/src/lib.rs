@@ -1,0 +1,1 @@
+//! The papers' examples as regression runs, with independent reference models.

@@ -1,0 +1,1 @@
+//! Time stepping of tensegrity structures: the modified symplectic scheme and generalised-alpha.
