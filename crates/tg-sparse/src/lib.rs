@@ -1,1 +1,15 @@
-//! Sparse saddle-point systems of a fixed pattern: slot map, static-order LU, pivoting fallback.
+//! Sparse saddle-point systems of a fixed pattern.
+mod elimination_tree;
+mod error;
+mod order;
+mod pattern;
+mod rank;
+mod saddle;
+mod slot_map;
+mod static_lu;
+mod symbolic;
+
+pub use error::{EntryList, Row, SparseError};
+pub use pattern::SaddlePattern;
+pub use rank::{DependentRow, dependent_rows};
+pub use saddle::{Counts, SaddleSystem, SolveReport};

@@ -1,0 +1,79 @@
+//! Map from entry lists to matrix slots: values in the caller's fixed order are added straight to where the compressed
+//! rows hold them, without a search and without an allocation.
+//!
+//! The compressed rows hold `K = [H, −A₀ᵀ; A₁, 0]` in elimination order: the residual runs through memory in one
+//! direction. One slot more than there are entries, the last, receives the values of `None` entries.
+
+use crate::order::Rows;
+
+/// Compressed rows of `K` and the slot of every entry of the caller's lists.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SlotMap {
+    /// Compressed rows in elimination order.
+    pub(crate) rows: Rows,
+    /// For each leading group, the slot of each of its entries.
+    pub(crate) leading: Vec<Vec<u32>>,
+    /// Slot of each Jacobian entry in the block `−A₀ᵀ`.
+    pub(crate) upper: Vec<u32>,
+    /// Slot of each Jacobian entry in the block `A₁`.
+    pub(crate) lower: Vec<u32>,
+    /// All slots of `H`.
+    pub(crate) leading_slots: Vec<u32>,
+    /// True when an entry of `A` repeats, so that its slots must be cleared before values are added.
+    pub(crate) jacobian_repeats: bool,
+}
+
+impl SlotMap {
+    /// `rows`: pattern in elimination order; `position`: variable → position, multipliers from `n` on.
+    pub(crate) fn new(
+        n: usize,
+        rows: Rows,
+        position: &[u32],
+        leading: &[&[Option<(usize, usize)>]],
+        jacobian: &[Option<(usize, usize)>],
+    ) -> Self {
+        let none = rows.column().len() as u32;
+        let slot = |row: usize, column: usize| {
+            let row = position[row] as usize;
+            let at = rows.row(row).partition_point(|&c| c < position[column]);
+            (rows.start()[row] + at) as u32
+        };
+        let map = |list: &[Option<(usize, usize)>], find: &dyn Fn(usize, usize) -> u32| -> Vec<u32> {
+            list.iter().map(|entry| entry.map_or(none, |(row, column)| find(row, column))).collect()
+        };
+        let leading: Vec<Vec<u32>> = leading.iter().map(|group| map(group, &slot)).collect();
+        let upper = map(jacobian, &|j, i| slot(i, n + j));
+        let lower = map(jacobian, &|j, i| slot(n + j, i));
+        let distinct = |slots: &mut Vec<u32>| {
+            slots.retain(|&s| s != none);
+            slots.sort_unstable();
+            let all = slots.len();
+            slots.dedup();
+            slots.len() == all
+        };
+        let mut leading_slots = leading.concat();
+        distinct(&mut leading_slots);
+        let jacobian_repeats = !distinct(&mut upper.clone());
+        Self { leading, upper, lower, leading_slots, jacobian_repeats, rows }
+    }
+
+    /// Entries of `K`, the slot of `None` not counted.
+    pub(crate) fn entries(&self) -> usize {
+        self.rows.column().len()
+    }
+
+    /// `out = K x` in elimination order, and `magnitude = |K| |x|`.
+    pub(crate) fn multiply(&self, values: &[f64], x: &[f64], mut row_done: impl FnMut(usize, f64, f64)) {
+        for (row, bounds) in self.rows.start().windows(2).enumerate() {
+            let columns = &self.rows.column()[bounds[0]..bounds[1]];
+            let mut sum = 0.0;
+            let mut magnitude = 0.0;
+            for (&c, &v) in columns.iter().zip(&values[bounds[0]..bounds[1]]) {
+                let term = v * x[c as usize];
+                sum += term;
+                magnitude += term.abs();
+            }
+            row_done(row, sum, magnitude);
+        }
+    }
+}
