@@ -6,7 +6,7 @@ use std::array::from_fn;
 
 type Square = SMatrix<f64, ANGLES, ANGLES>;
 
-/// Upright, the points are GEOMETRY's table and the auxiliary cables measure 0.1 √5.
+/// Upright, the points are those of Fig. 10 and the auxiliary cables measure 0.1 √5.
 #[test]
 fn upright_tower_is_the_papers_figure() {
     let tower = Tower::paper(Setup::Un);

@@ -84,7 +84,7 @@ fn setups_part_as_in_the_papers_scheme() -> Result<(), ReferenceError> {
     Ok(())
 }
 
-/// Sec. 6.2.2 and GEOMETRY: who stands and who falls, and which cables are slack.
+/// Sec. 6.2.2: who stands and who falls, and which cables are slack.
 #[test]
 fn only_us_falls() -> Result<(), ReferenceError> {
     for setup in [Setup::Un, Setup::Dn, Setup::UsAux] {
