@@ -89,8 +89,10 @@ pub enum SparseError {
         /// The equation.
         row: Row,
     },
-    /// A value of the right-hand side, or of the solution, is infinite or not a number.
-    #[error("the right-hand side or the solution is not finite in the row of {row}")]
+    /// A value of the right-hand side is infinite or not a number.
+    #[error(
+        "the right-hand side is not finite in the row of {row}; look for an overflow or a division by zero in its force or constraint"
+    )]
     NonFiniteVector {
         /// The equation.
         row: Row,

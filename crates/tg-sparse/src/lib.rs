@@ -3,7 +3,10 @@ mod elimination_tree;
 mod error;
 mod order;
 mod pattern;
+#[cfg(feature = "pivoting")]
+mod pivoting;
 mod rank;
+mod refinement;
 mod saddle;
 mod slot_map;
 mod static_lu;

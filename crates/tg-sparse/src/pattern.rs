@@ -18,8 +18,6 @@ pub struct SaddlePattern {
     pub(crate) m: usize,
     pub(crate) slots: SlotMap,
     pub(crate) symbolic: Symbolic,
-    /// Variable → position.
-    pub(crate) position: Vec<u32>,
     /// (slot in the compressed rows, offset in the front's panel) of each entry, by front.
     pub(crate) assembly: Vec<(u32, u32)>,
     /// Where the list of each front starts in `assembly`; one more than fronts.
@@ -65,7 +63,7 @@ impl SaddlePattern {
         let rows = saddle_rows(&leading_rows, &jacobian_rows, &position);
         let slots = SlotMap::new(n, rows, &position, leading, jacobian);
         let (assembly, assembly_start) = assemble_fronts(&symbolic, &slots.rows)?;
-        Ok(Self { n, m, slots, symbolic, position, assembly, assembly_start })
+        Ok(Self { n, m, slots, symbolic, assembly, assembly_start })
     }
 
     /// n, the number of unknowns.

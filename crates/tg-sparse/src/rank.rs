@@ -223,7 +223,7 @@ fn merged<K: Copy + Ord>(a: &[(K, f64)], b: &[(K, f64)], mut visit: impl FnMut(K
             (None, Some(&&(q, _))) => q,
             (None, None) => return,
         };
-        let mut take = |list: &mut std::iter::Peekable<std::slice::Iter<'_, (K, f64)>>| {
+        let take = |list: &mut std::iter::Peekable<std::slice::Iter<'_, (K, f64)>>| {
             list.next_if(|&&(k, _)| k == key).map_or(0.0, |&(_, x)| x)
         };
         visit(key, take(&mut a), take(&mut b));

@@ -1,23 +1,22 @@
 //! A saddle-point system with its values, factors and buffers.
+//!
+//! ```text
+//! [ H   −A₀ᵀ ] [x]   [f]
+//! [ A₁    0  ] [y] = [g]
+//! ```
+//!
+//! The linear system of each Newton step on eq. (54) with the Jacobian (55): `H = M̌ − h²/2 ∂F̌/∂q̌`, `A₀ = Ǎ(q_k)`,
+//! `A₁ = Ǎ(q_{k+1})`.
 
-use crate::error::{Row, SparseError};
+use crate::error::SparseError;
 use crate::pattern::SaddlePattern;
+#[cfg(feature = "pivoting")]
+use crate::pivoting::PivotingLu;
+use crate::refinement::{BAD, Outcome, Vectors};
 use crate::static_lu::{PivotRule, PivotTrouble, StaticLu};
 
-/// A scaled residual up to this is accepted without refinement: some hundred ε, what elimination leaves when it loses
-/// no digits.
-const RESIDUAL_GOOD: f64 = 1e-13;
-
-/// A scaled residual that stays above this after refinement is a failure of the factors.
-const RESIDUAL_BAD: f64 = 1e-10;
-
-/// Most steps of refinement in one solve.
-const MOST_REFINEMENTS: u32 = 4;
-
-/// Magnitudes below this share of the block's largest count as this share in the scaled residual.
-const MAGNITUDE_FLOOR: f64 = 1e-8;
-
-/// A correction above this share of a component says that the factors do not determine that component.
+/// A second solve that changes a component by more than this share says that the factors do not determine it. For a
+/// singular matrix the share is one, for factors good to d digits 10^−d.
 const PROBE_LIMIT: f64 = 0.1;
 
 /// What a solve did.
@@ -48,6 +47,7 @@ pub struct Counts {
 enum Factors {
     None,
     Static,
+    #[cfg_attr(not(feature = "pivoting"), allow(dead_code))]
     Pivoting,
 }
 
@@ -60,10 +60,9 @@ pub struct SaddleSystem {
     lu: StaticLu,
     factors: Factors,
     counts: Counts,
-    right: Vec<f64>,
-    solution: Vec<f64>,
-    residual: Vec<f64>,
-    magnitude: Vec<f64>,
+    vectors: Vectors,
+    #[cfg(feature = "pivoting")]
+    pivoting: Option<Box<PivotingLu>>,
 }
 
 impl SaddleSystem {
@@ -76,10 +75,9 @@ impl SaddleSystem {
             lu: StaticLu::new(&pattern.symbolic),
             factors: Factors::None,
             counts: Counts::default(),
-            right: vec![0.0; size],
-            solution: vec![0.0; size],
-            residual: vec![0.0; size],
-            magnitude: vec![0.0; size],
+            vectors: Vectors::new(size),
+            #[cfg(feature = "pivoting")]
+            pivoting: None,
             pattern,
         }
     }
@@ -161,7 +159,7 @@ impl SaddleSystem {
         assert_eq!(out.len(), self.pattern.size(), "length of out");
         let rows = &self.pattern.slots.rows;
         let order = &self.pattern.symbolic.order;
-        for ((bounds, &variable), _) in rows.start().windows(2).zip(order).zip(0..) {
+        for (bounds, &variable) in rows.start().windows(2).zip(order) {
             let columns = &rows.column()[bounds[0]..bounds[1]];
             let values = &self.values[bounds[0]..bounds[1]];
             out[variable as usize] =
@@ -169,43 +167,142 @@ impl SaddleSystem {
         }
     }
 
-    /// Factors the present values.
+    /// Factors the present values in the static order. When a pivot vanishes or is not finite, or is doubtful and does
+    /// not stand a probe, the pivoting fallback factors them (feature `pivoting`).
     ///
     /// # Errors
-    /// Pivot trouble.
+    /// [`SparseError::Singular`] with the fallback, [`SparseError::Pivot`] without it: for a multiplier, its constraint
+    /// depends on others. [`SparseError::NonFiniteMatrix`].
     pub fn factor(&mut self) -> Result<(), SparseError> {
         self.counts.factorisations += 1;
         self.factors = Factors::None;
-        match self.lu.factor(&self.pattern, &self.values, PivotRule::Check) {
+        let trouble = match self.lu.factor(&self.pattern, &self.values, PivotRule::Check) {
+            Ok(()) => self.probe(),
+            Err(trouble) => Some(trouble),
+        };
+        match trouble {
+            None => self.factors = Factors::Static,
+            Some(PivotTrouble { position, pivot, scale }) => {
+                let row = self.pattern.row_at(position);
+                self.fall_back(position, SparseError::Pivot { row, pivot, scale })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves `K [x; y] = [f; g]` with the present factors: `rhs` holds `[f; g]` on entry and `[x; y]` on return. The
+    /// residual is checked and refined. When it stays large, the pivoting fallback takes over (feature `pivoting`)
+    /// until the next [`factor`](Self::factor).
+    ///
+    /// # Errors
+    /// [`SparseError::NotFactored`], [`SparseError::NonFiniteVector`], [`SparseError::NonFiniteMatrix`]; a residual that
+    /// stays large: [`SparseError::Residual`] without the fallback, [`SparseError::Singular`] with it. `rhs` is unchanged
+    /// then.
+    ///
+    /// # Panics
+    /// When `rhs` has another length than n + m.
+    #[track_caller]
+    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<SolveReport, SparseError> {
+        assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
+        let mut steps = 0;
+        let mut outcome = match self.factors {
+            Factors::None => return Err(SparseError::NotFactored),
+            factors => {
+                for (b, &variable) in self.vectors.right.iter_mut().zip(&self.pattern.symbolic.order) {
+                    *b = rhs[variable as usize];
+                }
+                self.refine(factors)
+            }
+        };
+        if !(outcome.error <= BAD) {
+            if let Some(position) = self.vectors.right.iter().position(|b| !b.is_finite()) {
+                return Err(SparseError::NonFiniteVector { row: self.pattern.row_at(position) });
+            }
+            let row = self.pattern.row_at(outcome.worst);
+            if self.factors == Factors::Static {
+                steps = outcome.steps;
+                // The fallback needs the vectors for its probe.
+                self.fall_back(outcome.worst, SparseError::Residual { row, residual: outcome.error })?;
+                for (b, &variable) in self.vectors.right.iter_mut().zip(&self.pattern.symbolic.order) {
+                    *b = rhs[variable as usize];
+                }
+                outcome = self.refine(Factors::Pivoting);
+            }
+            if !(outcome.error <= BAD) {
+                return Err(SparseError::Singular { row: self.pattern.row_at(outcome.worst) });
+            }
+        }
+        for (x, &variable) in self.vectors.solution.iter().zip(&self.pattern.symbolic.order) {
+            rhs[variable as usize] = *x;
+        }
+        let refinements = steps + outcome.steps;
+        self.counts.solves += 1;
+        self.counts.refinements += u64::from(refinements);
+        let fell_back = self.factors == Factors::Pivoting;
+        Ok(SolveReport { residual: outcome.error, refinements, fell_back })
+    }
+
+    /// Solves for the present right-hand side.
+    fn refine(&mut self, factors: Factors) -> Outcome {
+        let Self { pattern, values, lu, vectors, .. } = self;
+        #[cfg(feature = "pivoting")]
+        if let (Factors::Pivoting, Some(pivoting)) = (factors, &mut self.pivoting) {
+            return vectors.refine(pattern, values, |x| pivoting.solve(x));
+        }
+        let _ = factors;
+        vectors.refine(pattern, values, |x| lu.solve(&pattern.symbolic, x))
+    }
+
+    /// Where pivots are doubtful: are the factors good enough to determine those components? Rounding error in place of
+    /// a pivot that vanishes makes the solution in that direction arbitrary; solving for the residual tells.
+    fn probe(&mut self) -> Option<PivotTrouble> {
+        let Self { pattern, values, lu, vectors, .. } = self;
+        if lu.doubtful.is_empty() {
+            return None;
+        }
+        vectors.right.fill(0.0);
+        for &position in &lu.doubtful {
+            vectors.right[position as usize] = 1.0;
+        }
+        let (solution, correction) =
+            vectors.solve_and_correct(pattern, values, |x| lu.solve(&pattern.symbolic, x));
+        let position = lu.doubtful.iter().map(|&position| position as usize).find(|&position| {
+            let (x, d) = (solution[position], correction[position]);
+            !(d.abs() <= PROBE_LIMIT * x.abs() && x.is_finite())
+        })?;
+        Some(lu.pivot(position))
+    }
+
+    /// Factors by the pivoting fallback; `position` is where the static order failed.
+    #[cfg(feature = "pivoting")]
+    fn fall_back(&mut self, position: usize, _failure: SparseError) -> Result<(), SparseError> {
+        let Self { pattern, values, vectors, .. } = self;
+        self.factors = Factors::None;
+        if let Some(row) = pattern.slots.non_finite_row(values) {
+            return Err(SparseError::NonFiniteMatrix { row: pattern.row_at(row) });
+        }
+        self.counts.fallbacks += 1;
+        let singular = |position| SparseError::Singular { row: pattern.row_at(position) };
+        let pivoting = match &mut self.pivoting {
+            Some(pivoting) => pivoting,
+            none => none.insert(Box::new(PivotingLu::new(&pattern.slots).ok_or_else(|| singular(position))?)),
+        };
+        match pivoting.factor(pattern, values, vectors, PROBE_LIMIT, position) {
             Ok(()) => {
-                self.factors = Factors::Static;
+                self.factors = Factors::Pivoting;
                 Ok(())
             }
-            Err(PivotTrouble { position, pivot, scale }) => {
-                Err(SparseError::Pivot { row: self.pattern.row_at(position), pivot, scale })
-            }
+            Err(position) => Err(singular(position)),
         }
     }
 
-    /// Solves.
-    ///
-    /// # Errors
-    /// [`SparseError::NotFactored`].
-    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<SolveReport, SparseError> {
-        assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
-        if self.factors == Factors::None {
-            return Err(SparseError::NotFactored);
+    /// Without the fallback, the failure of the static order is the answer.
+    #[cfg(not(feature = "pivoting"))]
+    fn fall_back(&mut self, _position: usize, failure: SparseError) -> Result<(), SparseError> {
+        self.factors = Factors::None;
+        match self.pattern.slots.non_finite_row(&self.values) {
+            Some(row) => Err(SparseError::NonFiniteMatrix { row: self.pattern.row_at(row) }),
+            None => Err(failure),
         }
-        let order = &self.pattern.symbolic.order;
-        for (b, &variable) in self.right.iter_mut().zip(order) {
-            *b = rhs[variable as usize];
-        }
-        self.solution.copy_from_slice(&self.right);
-        self.lu.solve(&self.pattern.symbolic, &mut self.solution);
-        for (x, &variable) in self.solution.iter().zip(order) {
-            rhs[variable as usize] = *x;
-        }
-        self.counts.solves += 1;
-        Ok(SolveReport { residual: 0.0, refinements: 0, fell_back: false })
     }
 }

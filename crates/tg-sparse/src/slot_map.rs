@@ -62,18 +62,22 @@ impl SlotMap {
         self.rows.column().len()
     }
 
-    /// `out = K x` in elimination order, and `magnitude = |K| |x|`.
-    pub(crate) fn multiply(&self, values: &[f64], x: &[f64], mut row_done: impl FnMut(usize, f64, f64)) {
-        for (row, bounds) in self.rows.start().windows(2).enumerate() {
+    /// `(K x)_i` and `(|K| |x|)_i` for each row in elimination order.
+    pub(crate) fn products<'a>(
+        &'a self,
+        values: &'a [f64],
+        x: &'a [f64],
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.rows.start().windows(2).map(move |bounds| {
             let columns = &self.rows.column()[bounds[0]..bounds[1]];
-            let mut sum = 0.0;
-            let mut magnitude = 0.0;
-            for (&c, &v) in columns.iter().zip(&values[bounds[0]..bounds[1]]) {
-                let term = v * x[c as usize];
-                sum += term;
-                magnitude += term.abs();
-            }
-            row_done(row, sum, magnitude);
-        }
+            let terms = columns.iter().zip(&values[bounds[0]..bounds[1]]).map(|(&c, &v)| v * x[c as usize]);
+            terms.fold((0.0, 0.0), |(sum, magnitude), term: f64| (sum + term, magnitude + term.abs()))
+        })
+    }
+
+    /// The row of the first value that is not finite.
+    pub(crate) fn non_finite_row(&self, values: &[f64]) -> Option<usize> {
+        let slot = values[..self.entries()].iter().position(|v| !v.is_finite())?;
+        Some(self.rows.start().partition_point(|&start| start <= slot) - 1)
     }
 }

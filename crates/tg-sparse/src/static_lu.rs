@@ -146,6 +146,11 @@ impl StaticLu {
         Ok(())
     }
 
+    /// Pivot and `s_i` at a position.
+    pub(crate) fn pivot(&self, position: usize) -> PivotTrouble {
+        PivotTrouble { position, pivot: 1.0 / self.inverse[position], scale: self.scale[position] }
+    }
+
     /// `x ← U⁻¹ L⁻¹ x` in elimination order.
     pub(crate) fn solve(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
         self.forward(symbolic, 0..symbolic.fronts.len(), x);
