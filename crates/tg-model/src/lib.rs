@@ -1,1 +1,69 @@
-//! A tensegrity structure: members, joints, cables, supports, loads and signals, offered to the solvers as flat slices.
+//! A tensegrity structure: rigid members in natural coordinates, joints, cables, supports, loads and signals, built
+//! by name, checked, and offered to the solvers as flat slices through one narrow trait, [`Mechanics`].
+//!
+//! ```
+//! use tg_model::{CableLaw, Joining, ModelBuilder};
+//!
+//! let mut b = ModelBuilder::<2>::new();
+//! b.gravity([0.0, -9.81])?;
+//! let ground = b.anchor("ground", [0.0, 0.0])?;
+//! let mast = b.bar("mast", 1.0, [0.0, 0.0], [0.0, 2.0])?;
+//! b.joint("foot", &[ground.into(), mast.node(0)], Joining::Share)?;
+//! for (name, x) in [("left", -1.0), ("right", 1.0)] {
+//!     let peg = b.anchor(name, [x, 0.0])?;
+//!     b.cable(&format!("{name} guy"), peg, mast.node(1), CableLaw::slacking(1e4), 2.2)?;
+//! }
+//! let model = b.build()?;
+//! assert_eq!(model.report().degrees_of_freedom(), 1);
+//! # Ok::<(), tg_model::BuildError>(())
+//! ```
+//!
+//! From the equations of the framework paper (Luo, Wu, Xu) to the items:
+//!
+//! | equation | meaning | item |
+//! |---|---|---|
+//! | (16), (22) | points as linear forms over the coordinates | [`Form`], [`Model::form`] |
+//! | (19) | joints by sharing or by extrinsic constraints | [`ModelBuilder::joint`], [`Joining`] |
+//! | (20), (21) | prescribed and free coordinates, anchors | [`ModelBuilder::support`], [`ModelBuilder::anchor`], [`Mechanics::free`] |
+//! | (25) | point forces and gravity | [`ModelBuilder::load`], [`ModelBuilder::gravity`] |
+//! | (26), (27) | cable vector, length and rate | [`Model::cable_form`], [`CableState`] |
+//! | (28), (29) | generalised tension force | [`Mechanics::force`] |
+//! | (30) | constitutive law with slacking | [`CableLaw`] |
+//! | (36) | constant mass matrix | [`Mechanics::mass`], [`Inertia`] |
+//! | (38) | the equations of motion that the solvers see | [`Mechanics`] |
+//! | (B.3), (B.4) | tangents, damping term corrected | [`Mechanics::stiffness`], [`Mechanics::damping`] |
+//!
+//! A model is immutable and shared by threads; state and workspaces belong to the solvers. [`Projector`] makes a
+//! given state consistent and says by how much it moved.
+
+mod assemble;
+mod builder;
+mod cables;
+mod constraints;
+mod drive;
+mod error;
+mod evaluate;
+mod form;
+mod inertia;
+mod law;
+mod layout;
+mod mechanics;
+mod model;
+mod nodes;
+mod projector;
+mod redundancy;
+mod report;
+mod signal;
+
+pub use builder::{AnchorId, CableId, Joining, LoadId, MemberId, ModelBuilder, Place, Redundancies};
+pub use cables::CableState;
+pub use error::BuildError;
+pub use form::Form;
+pub use inertia::Inertia;
+pub use law::{CableLaw, Tension, TensionLaw};
+pub use layout::Layout;
+pub use mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
+pub use model::{Energy, Model};
+pub use projector::{Moved, ProjectionError, Projector};
+pub use report::{BuildReport, Redundancy};
+pub use signal::{Signal, SignalError, SignalFn, Table};

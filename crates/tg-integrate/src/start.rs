@@ -1,0 +1,40 @@
+//! Checks of the start that all schemes share.
+
+use tg_model::{Mechanics, Projector};
+
+use crate::state::State;
+use crate::stepper::StartError;
+
+/// Scaled violation of a constraint above which a start counts as not assembled: a thousand times the rounding of
+/// hand-written coordinates, a millionth of what a misplaced member shows.
+const ASSEMBLED: f64 = 1e-9;
+
+/// A state with prescribed components in place, finite and of the right size.
+pub(crate) fn check(mechanics: &dyn Mechanics, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {
+    let sizes = mechanics.sizes();
+    for (what, x) in [("coordinates", q), ("velocities", v)] {
+        if x.len() != sizes.coordinates {
+            return Err(StartError::Length { what, got: x.len(), expected: sizes.coordinates });
+        }
+    }
+    if !t.is_finite() {
+        return Err(StartError::Parameter { name: "start time", value: t, must: "be finite" });
+    }
+    let (mut q, mut v) = (q.to_vec(), v.to_vec());
+    mechanics.prescribe(t, &mut q, &mut v);
+    match q.iter().zip(&v).position(|(q, v)| !q.is_finite() || !v.is_finite()) {
+        Some(i) => Err(StartError::NotFinite(mechanics.coordinate_name(i))),
+        None => Ok(State { t, q, v, lambda: vec![0.0; sizes.constraints], memory: Vec::new() }),
+    }
+}
+
+/// Checks the constraints and projects the velocities.
+pub(crate) fn project(projector: &mut Projector<'_>, mut state: State) -> Result<State, StartError> {
+    let (worst, residual) = projector.constraint_residual(&state.q);
+    if residual > ASSEMBLED {
+        let constraint = projector.mechanics().constraint_name(worst);
+        return Err(StartError::Inconsistent { constraint, residual });
+    }
+    projector.velocity(&state.q, &mut state.v)?;
+    Ok(state)
+}

@@ -1,0 +1,197 @@
+//! The Newton system of an implicit step, shared by the schemes.
+//!
+//! ```text
+//! [H -A₀ᵀ] [δΔ]     [r]        H = a M + b (-∂F/∂q) + c (-∂F/∂q̇) - Σ ν_j ∂²Φ_j
+//! [A₁  0 ] [δν] = - [Φ]
+//! ```
+
+use tg_model::{At, HessianEntry, Inertia, Layout, Mechanics};
+use tg_sparse::{SaddleSystem, SparseError};
+
+use crate::stepper::StepFailure;
+
+/// Groups of leading entries, in the order in which the pattern is made.
+const MASS: usize = 0;
+const STIFFNESS: usize = 1;
+const DAMPING: usize = 2;
+const CURVATURE: usize = 3;
+
+/// Factors of the parts of the leading block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factors {
+    pub(crate) mass: f64,
+    pub(crate) stiffness: f64,
+    pub(crate) damping: f64,
+}
+
+/// Patterns, values, factors and buffers of one system.
+pub(crate) struct NewtonSystem<'m> {
+    pub(crate) mechanics: &'m dyn Mechanics,
+    pub(crate) inertia: Inertia,
+    pub(crate) layout: Layout,
+    saddle: SaddleSystem,
+    mass: Vec<f64>,
+    stiffness: Vec<f64>,
+    damping: Vec<f64>,
+    curvature: Vec<HessianEntry>,
+    curvature_values: Vec<f64>,
+    /// A(q_k), and A at the end of the step.
+    pub(crate) upper: Vec<f64>,
+    lower: Vec<f64>,
+    /// Aᵀ ν over the full coordinates.
+    pub(crate) constraint_force: Vec<f64>,
+    pub(crate) phi: Vec<f64>,
+    /// Residual in, correction out: unknowns, then multipliers.
+    pub(crate) rhs: Vec<f64>,
+}
+
+/// Where and how large the worst scaled residual is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Worst {
+    pub(crate) residual: f64,
+    /// Row of the system.
+    pub(crate) row: usize,
+}
+
+impl<'m> NewtonSystem<'m> {
+    /// `with_curvature` adds the constraints' second derivative (schemes that differentiate Aᵀλ).
+    pub(crate) fn new(mechanics: &'m dyn Mechanics, with_curvature: bool) -> Result<Self, SparseError> {
+        let sizes = mechanics.sizes();
+        let layout = Layout::new(mechanics);
+        let mass: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
+        let curvature = if with_curvature { mechanics.constraint_hessian().to_vec() } else { Vec::new() };
+        let curved: Vec<_> = curvature.iter().map(|e| (e.row, e.col)).collect();
+        let groups: [&[(usize, usize)]; 4] =
+            [&mass, mechanics.stiffness_pattern(), mechanics.damping_pattern(), &curved];
+        let pattern = layout.saddle(mechanics, &groups)?;
+        Ok(Self {
+            inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
+            saddle: SaddleSystem::new(pattern),
+            mass: mechanics.mass().iter().map(|e| e.value).collect(),
+            stiffness: vec![0.0; mechanics.stiffness_pattern().len()],
+            damping: vec![0.0; mechanics.damping_pattern().len()],
+            curvature_values: vec![0.0; curvature.len()],
+            curvature,
+            upper: vec![0.0; mechanics.jacobian_pattern().len()],
+            lower: vec![0.0; mechanics.jacobian_pattern().len()],
+            constraint_force: vec![0.0; sizes.coordinates],
+            phi: vec![0.0; sizes.constraints],
+            rhs: vec![0.0; layout.unknowns() + sizes.constraints],
+            layout,
+            mechanics,
+        })
+    }
+
+    /// Counted falls back to the pivoting factorisation so far.
+    pub(crate) fn fallbacks(&self) -> u64 {
+        self.saddle.counts().fallbacks
+    }
+
+    pub(crate) fn set_upper(&mut self, q: &[f64]) {
+        self.mechanics.jacobian(q, &mut self.upper);
+    }
+
+    /// Aᵀ ν with the upper Jacobian.
+    pub(crate) fn spread_multipliers(&mut self, nu: &[f64]) {
+        self.constraint_force.fill(0.0);
+        for (&(row, i), a) in self.mechanics.jacobian_pattern().iter().zip(&self.upper) {
+            self.constraint_force[i] += a * nu[row];
+        }
+    }
+
+    /// Puts Φ(q) into the lower rows of the right-hand side and returns the worst one, scaled.
+    pub(crate) fn constraint_rows(&mut self, q: &[f64]) -> Worst {
+        let n = self.layout.unknowns();
+        self.mechanics.constraints(q, &mut self.phi);
+        let mut worst = Worst { residual: 0.0, row: n };
+        for (j, (phi, scale)) in self.phi.iter().zip(self.mechanics.constraint_scales()).enumerate() {
+            self.rhs[n + j] = *phi;
+            worst = worst.or(phi.abs() / scale, n + j);
+        }
+        worst
+    }
+
+    /// Worst dynamic row of the right-hand side relative to `scale`.
+    pub(crate) fn dynamic_rows(&self, scale: f64) -> Worst {
+        let rows = &self.rhs[..self.layout.unknowns()];
+        let scale = scale.max(f64::MIN_POSITIVE);
+        rows.iter()
+            .enumerate()
+            .fold(Worst { residual: 0.0, row: 0 }, |worst, (i, r)| worst.or(r.abs() / scale, i))
+    }
+
+    /// Factors the matrix at a state and replaces the right-hand side r by the solution of `K x = r`.
+    /// `lower_q` is where A₁ is taken; `nu` weighs the curvature if the system has it.
+    pub(crate) fn solve(
+        &mut self,
+        at: At<'_>,
+        factors: Factors,
+        lower_q: &[f64],
+        nu: &[f64],
+    ) -> Result<(), SparseError> {
+        self.mechanics.jacobian(lower_q, &mut self.lower);
+        self.saddle.clear_leading();
+        self.saddle.add_leading(MASS, factors.mass, &self.mass);
+        self.mechanics.stiffness(at, &mut self.stiffness);
+        self.saddle.add_leading(STIFFNESS, factors.stiffness, &self.stiffness);
+        if !self.damping.is_empty() {
+            self.mechanics.damping(at, &mut self.damping);
+            self.saddle.add_leading(DAMPING, factors.damping, &self.damping);
+        }
+        if !self.curvature.is_empty() {
+            for (value, entry) in self.curvature_values.iter_mut().zip(&self.curvature) {
+                *value = -nu[entry.constraint] * entry.value;
+            }
+            self.saddle.add_leading(CURVATURE, 1.0, &self.curvature_values);
+        }
+        self.saddle.set_jacobian(&self.upper, &self.lower);
+        self.saddle.factor()?;
+        self.saddle.solve(&mut self.rhs).map(drop)
+    }
+
+    /// Words for a row: its name, and the cables there.
+    pub(crate) fn words(&self, row: usize) -> (String, Vec<String>) {
+        let n = self.layout.unknowns();
+        if row < n {
+            let coordinate = self.mechanics.free()[row];
+            (self.mechanics.coordinate_name(coordinate), self.mechanics.cables_at(coordinate))
+        } else {
+            (self.mechanics.constraint_name(row - n), Vec::new())
+        }
+    }
+
+    /// A failed iteration in words.
+    pub(crate) fn failure(&self, failure: Failure, iterations: u32, worst: Worst) -> StepFailure {
+        let (name, cables) = self.words(worst.row);
+        match failure {
+            Failure::NotConverged => {
+                StepFailure::NotConverged { iterations, residual: worst.residual, worst: name, cables }
+            }
+            Failure::NotFinite => StepFailure::NotFinite { worst: name, cables },
+            Failure::Solver(source) => {
+                StepFailure::Solver { culprit: self.layout.name(self.mechanics, &source), source }
+            }
+            Failure::Projection(error) => StepFailure::Projection(error),
+        }
+    }
+}
+
+impl Worst {
+    /// The larger of this and another row's residual; NaN counts as largest.
+    fn or(self, residual: f64, row: usize) -> Self {
+        if residual <= self.residual || self.residual.is_nan() { self } else { Self { residual, row } }
+    }
+
+    pub(crate) fn max(self, other: Self) -> Self {
+        self.or(other.residual, other.row)
+    }
+}
+
+/// Why an iteration failed, before it is put into words.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    NotConverged,
+    NotFinite,
+    Solver(SparseError),
+    Projection(tg_model::ProjectionError),
+}

@@ -1,0 +1,89 @@
+//! Everything that depends on time: prescribed coordinates q̃(t) and inputs u(t).
+//!
+//! Inputs are the rest lengths of all cables, then the D components of each point force.
+
+use crate::builder::ModelBuilder;
+use crate::signal::Signal;
+
+/// What prescribes a coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Prescription {
+    /// An anchor that no support moves.
+    AtRest,
+    /// The support with this index.
+    By(usize),
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Drive {
+    /// Prescribed coordinates that do not move, with their values.
+    held: Vec<(usize, f64)>,
+    /// Prescribed coordinates that move: initial value plus signal.
+    moved: Vec<(usize, f64, Signal)>,
+    /// All inputs; driven ones hold their value at t = 0.
+    inputs: Vec<f64>,
+    /// Driven inputs: index, factor, signal.
+    driven: Vec<(usize, f64, Signal)>,
+}
+
+impl Drive {
+    /// `prescribed` says of each coordinate whether and by what it is prescribed; `q` holds the positions that
+    /// supports' offsets count from.
+    pub(crate) fn new<const D: usize>(
+        builder: &ModelBuilder<D>,
+        prescribed: &[Option<Prescription>],
+        q: &[f64],
+    ) -> Self {
+        let (mut held, mut moved) = (Vec::new(), Vec::new());
+        for (i, prescription) in prescribed.iter().enumerate() {
+            let offset = match *prescription {
+                None => continue,
+                Some(Prescription::AtRest) => Signal::Constant(0.0),
+                Some(Prescription::By(s)) => builder.supports[s].offset.clone(),
+            };
+            match offset.constant() {
+                Some(offset) => held.push((i, q[i] + offset)),
+                None => moved.push((i, q[i], offset)),
+            }
+        }
+        let rests = builder.cables.iter().map(|cable| (1.0, &cable.rest));
+        let loads = builder.loads.iter().flat_map(|load| load.force.iter().map(|&f| (f, &load.factor)));
+        let (mut inputs, mut driven) = (Vec::new(), Vec::new());
+        for (i, (factor, signal)) in rests.chain(loads).enumerate() {
+            inputs.push(factor * signal.at(0.0).0);
+            if signal.constant().is_none() {
+                driven.push((i, factor, signal.clone()));
+            }
+        }
+        Self { held, moved, inputs, driven }
+    }
+
+    pub(crate) fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
+        for &(i, value) in &self.held {
+            (q[i], v[i]) = (value, 0.0);
+        }
+        for (i, base, signal) in &self.moved {
+            let (value, rate) = signal.at(t);
+            (q[*i], v[*i]) = (base + value, rate);
+        }
+    }
+
+    pub(crate) fn inputs(&self, t: f64, u: &mut [f64]) {
+        u.copy_from_slice(&self.inputs);
+        for (i, factor, signal) in &self.driven {
+            u[*i] = factor * signal.at(t).0;
+        }
+    }
+
+    pub(crate) fn input_count(&self) -> usize {
+        self.inputs.len()
+    }
+
+    pub(crate) fn moves_supports(&self) -> bool {
+        !self.moved.is_empty()
+    }
+
+    pub(crate) fn drives_inputs(&self) -> bool {
+        !self.driven.is_empty()
+    }
+}

@@ -1,0 +1,242 @@
+//! A structure after `build()`: immutable, shared by threads, everything precomputed.
+
+use nalgebra::SVector;
+use tg_coords::{CoordsError, Member, PoseFit, Twist};
+
+use crate::builder::{AnchorId, CableId, LoadId, MemberId, Place};
+use crate::cables::{CableState, Cables, cable_state};
+use crate::constraints::Constraints;
+use crate::drive::Drive;
+use crate::form::{Form, node};
+use crate::inertia::Inertia;
+use crate::law::CableLaw;
+use crate::mechanics::{Entry, HessianEntry, Mechanics};
+use crate::report::BuildReport;
+
+/// A checked structure in D-dimensional space; offers itself to the solvers as [`Mechanics`].
+#[derive(Clone, Debug)]
+pub struct Model<const D: usize> {
+    pub(crate) members: Vec<PlacedMember<D>>,
+    pub(crate) anchors: Vec<usize>,
+    pub(crate) cables: Vec<Cable<D>>,
+    pub(crate) in_equations: Cables,
+    pub(crate) loads: Vec<Form<D>>,
+    pub(crate) load_names: Vec<String>,
+    /// Generalised force of gravity, constant.
+    pub(crate) weight: Vec<f64>,
+    pub(crate) constraints: Constraints,
+    /// Redundant constraints that were left out.
+    pub(crate) dropped: Constraints,
+    pub(crate) constraint_names: Vec<String>,
+    pub(crate) node_names: Vec<String>,
+    pub(crate) jacobian_pattern: Vec<(usize, usize)>,
+    pub(crate) hessian: Vec<HessianEntry>,
+    pub(crate) stiffness_pattern: Vec<(usize, usize)>,
+    pub(crate) damping_pattern: Vec<(usize, usize)>,
+    pub(crate) mass: Vec<Entry>,
+    pub(crate) inertia: Inertia,
+    pub(crate) drive: Drive,
+    pub(crate) free: Vec<usize>,
+    pub(crate) initial: Vec<f64>,
+    pub(crate) report: BuildReport,
+}
+
+/// A member and the nodes that hold its natural coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedMember<const D: usize> {
+    pub(crate) name: String,
+    pub(crate) member: Member<D>,
+    pub(crate) nodes: Vec<usize>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Cable<const D: usize> {
+    pub(crate) name: String,
+    pub(crate) form: Form<D>,
+    pub(crate) law: CableLaw,
+}
+
+/// Energies \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// ½ q̇ᵀ M q̇.
+    pub kinetic: f64,
+    /// Stored in cables.
+    pub elastic: f64,
+    /// -Σ m g·r_g, zero at the origin.
+    pub gravity: f64,
+    /// -Σ f·r of the point forces as they are at that time.
+    pub load: f64,
+}
+
+impl Energy {
+    /// Mechanical energy E = T + V.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential()
+    }
+
+    /// Potential energy V.
+    pub fn potential(&self) -> f64 {
+        self.elastic + self.gravity + self.load
+    }
+}
+
+impl<const D: usize> Model<D> {
+    /// What `build()` found: counts, and what was left out.
+    pub fn report(&self) -> &BuildReport {
+        &self.report
+    }
+
+    /// Full coordinates as built, prescribed components at t = 0.
+    pub fn initial_coordinates(&self) -> Vec<f64> {
+        self.initial.clone()
+    }
+
+    /// Full velocities with every free component at rest and prescribed ones at their rate at t = 0.
+    pub fn velocities_at_rest(&self) -> Vec<f64> {
+        let (mut q, mut v) = (self.initial.clone(), vec![0.0; self.initial.len()]);
+        self.drive.prescribe(0.0, &mut q, &mut v);
+        v
+    }
+
+    /// Inputs u (rest lengths, then force components) at time `t` \[s\].
+    pub fn inputs_at(&self, t: f64) -> Vec<f64> {
+        let mut u = vec![0.0; self.drive.input_count()];
+        self.drive.inputs(t, &mut u);
+        u
+    }
+
+    /// The linear form of a place; `None` if the place is not of this model or the point not of its member.
+    pub fn form(&self, place: impl Into<Place<D>>) -> Option<Form<D>> {
+        match place.into() {
+            Place::Node(MemberId(m), i) => {
+                self.members.get(m)?.nodes.get(i).map(|&node| Form::new([(node, 1.0)]))
+            }
+            Place::Material(MemberId(m), local) => {
+                let placed = self.members.get(m)?;
+                Some(placed.form(placed.member.point_weights(local.into()).ok()?.as_slice()))
+            }
+            Place::MassCentre(MemberId(m)) => {
+                let placed = self.members.get(m)?;
+                Some(placed.form(placed.member.mass_centre_weights().as_slice()))
+            }
+            Place::Anchor(AnchorId(a)) => self.anchors.get(a).map(|&node| Form::new([(node, 1.0)])),
+        }
+    }
+
+    /// Natural coordinates (or their rates) of a member out of full ones: one D-vector per node.
+    pub fn member_nodes(&self, member: MemberId, x: &[f64]) -> Vec<SVector<f64, D>> {
+        self.members[member.0].nodes.iter().map(|&n| node(x, n)).collect()
+    }
+
+    /// Pose of a member's local frame, best fit.
+    ///
+    /// # Errors
+    /// The coordinates are not finite or degenerate.
+    pub fn pose(&self, member: MemberId, q: &[f64]) -> Result<PoseFit<D>, CoordsError> {
+        self.members[member.0].member.pose(&self.member_nodes(member, q))
+    }
+
+    /// Twist of a member's local frame.
+    ///
+    /// # Errors
+    /// The coordinates are not finite or degenerate.
+    pub fn twist(&self, member: MemberId, q: &[f64], v: &[f64]) -> Result<Twist<D>, CoordsError> {
+        self.members[member.0].member.twist(&self.member_nodes(member, q), &self.member_nodes(member, v))
+    }
+
+    /// Writes the velocities of a member that moves with `twist` into full velocities; the prescribed components
+    /// and the members that share its nodes are the caller's to reconcile ([`crate::Projector::velocity`]).
+    ///
+    /// # Errors
+    /// The coordinates are not finite or degenerate.
+    pub fn set_twist(
+        &self,
+        member: MemberId,
+        twist: &Twist<D>,
+        q: &[f64],
+        v: &mut [f64],
+    ) -> Result<(), CoordsError> {
+        let placed = &self.members[member.0];
+        let pose = self.pose(member, q)?.pose;
+        for (&n, velocity) in placed.nodes.iter().zip(placed.member.place_velocity(&pose, twist)) {
+            v[n * D..n * D + D].copy_from_slice(velocity.as_slice());
+        }
+        Ok(())
+    }
+
+    /// Length, rate, rest length, tension and slackness of one cable.
+    pub fn cable(&self, cable: CableId, q: &[f64], v: &[f64], u: &[f64]) -> CableState {
+        let part = &self.cables[cable.0];
+        cable_state(&part.form, &part.law, u[cable.0], q, v)
+    }
+
+    /// All cables in the order in which they were added.
+    pub fn cables(&self) -> impl ExactSizeIterator<Item = CableId> + use<D> {
+        (0..self.cables.len()).map(CableId)
+    }
+
+    /// All members in the order in which they were added.
+    pub fn members(&self) -> impl ExactSizeIterator<Item = MemberId> + use<D> {
+        (0..self.members.len()).map(MemberId)
+    }
+
+    /// Name of a cable.
+    pub fn cable_name(&self, cable: CableId) -> &str {
+        &self.cables[cable.0].name
+    }
+
+    /// Name of a member.
+    pub fn member_name(&self, member: MemberId) -> &str {
+        &self.members[member.0].name
+    }
+
+    /// Name of a point force.
+    pub fn load_name(&self, load: LoadId) -> &str {
+        &self.load_names[load.0]
+    }
+
+    /// The vector l = J q of a cable (26), from its first place to its second.
+    pub fn cable_form(&self, cable: CableId) -> &Form<D> {
+        &self.cables[cable.0].form
+    }
+
+    /// Energies at full coordinates, velocities and inputs.
+    pub fn energy(&self, q: &[f64], v: &[f64], u: &[f64]) -> Energy {
+        let dot = |f: &[f64]| -f.iter().zip(q).map(|(f, q)| f * q).sum::<f64>();
+        let load = |(k, form): (usize, &Form<D>)| {
+            let f = SVector::<f64, D>::from_column_slice(&u[self.load_input(k)..self.load_input(k) + D]);
+            -form.eval(q).dot(&f)
+        };
+        Energy {
+            kinetic: self.inertia.kinetic_energy(v),
+            elastic: self.in_equations.energy::<D>(q, u),
+            gravity: dot(&self.weight),
+            load: self.loads.iter().enumerate().map(load).sum(),
+        }
+    }
+
+    /// Largest scaled violation of the redundant constraints that `build()` left out; it stays at the level of the
+    /// others' as long as they are implied.
+    pub fn dropped_violation(&self, q: &[f64]) -> f64 {
+        let mut phi = vec![0.0; self.dropped.len()];
+        self.dropped.residual::<D>(q, &mut phi);
+        phi.iter().zip(self.dropped.scales()).map(|(phi, s)| phi.abs() / s).fold(0.0, f64::max)
+    }
+
+    /// First input of load `k`.
+    pub(crate) fn load_input(&self, k: usize) -> usize {
+        self.cables.len() + k * D
+    }
+
+    /// This model as the solvers see it.
+    pub fn mechanics(&self) -> &dyn Mechanics {
+        self
+    }
+}
+
+impl<const D: usize> PlacedMember<D> {
+    fn form(&self, weights: &[f64]) -> Form<D> {
+        Form::new(self.nodes.iter().copied().zip(weights.iter().copied()))
+    }
+}

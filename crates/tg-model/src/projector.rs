@@ -1,0 +1,263 @@
+//! Consistent states: projection of q and q̇ onto the constraints in the metric of the mass matrix.
+//!
+//! ```text
+//! [M -Aᵀ] [δq̇]   [p - M q̇]          [M -Aᵀ] [δq]   [  0  ]
+//! [A   0 ] [ν ] = [ -A q̇  ]          [A   0 ] [ν ] = [-Φ(q)]   repeated
+//! ```
+//! on the free components, A q̇ over all of them: among all velocities that satisfy the constraints' rate, the one
+//! nearest in kinetic energy. It is what an impulse of the constraints does. M may be singular as long as it is
+//! definite on the null space of A.
+
+use tg_sparse::{SaddleSystem, SparseError};
+use thiserror::Error;
+
+use crate::inertia::Inertia;
+use crate::layout::Layout;
+use crate::mechanics::Mechanics;
+
+/// Scaled constraint residual at which positions count as consistent: a few roundings of a squared length.
+const CONSISTENT: f64 = 4.0 * f64::EPSILON;
+/// Scaled residual that is accepted where rounding ends the descent earlier.
+const ACCEPTED: f64 = 1e-13;
+const MAX_ITERATIONS: u32 = 30;
+
+/// By how much a projection moved a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// Largest change of a free component \[m or m/s\].
+    pub largest: f64,
+    /// The coordinate that changed most.
+    pub coordinate: usize,
+    /// Newton iterations (one for velocities).
+    pub iterations: u32,
+    /// Largest residual left: scaled Φ for positions; |A q̇| \[m²/s or m/s\] for velocities.
+    pub residual: f64,
+}
+
+/// Why a state cannot be made consistent.
+#[derive(Clone, Debug, Error)]
+pub enum ProjectionError {
+    /// The projection's matrix is singular or not finite.
+    #[error(
+        "cannot project onto the constraints: trouble at {culprit} ({source}); give mass to what moves, remove redundant constraints, or leave the singular pose"
+    )]
+    Solver {
+        /// Name of the coordinate or constraint.
+        culprit: String,
+        /// The solver's reason.
+        source: SparseError,
+    },
+    /// Newton's method does not reach the constraints.
+    #[error(
+        "the coordinates are too far from the constraints: {constraint} is still violated by {residual:.3e} (scaled) after {iterations} iterations; start nearer to an assembled configuration"
+    )]
+    NotConverged {
+        /// Name of the worst constraint.
+        constraint: String,
+        /// Its scaled residual.
+        residual: f64,
+        /// Iterations made.
+        iterations: u32,
+    },
+}
+
+/// Projects states of one system; all buffers are made once.
+pub struct Projector<'m> {
+    mechanics: &'m dyn Mechanics,
+    layout: Layout,
+    inertia: Inertia,
+    system: SaddleSystem,
+    mass: Vec<f64>,
+    jacobian: Vec<f64>,
+    phi: Vec<f64>,
+    rhs: Vec<f64>,
+}
+
+impl<'m> Projector<'m> {
+    /// A projector for a system.
+    ///
+    /// # Errors
+    /// The pattern cannot be analysed.
+    pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
+        let layout = Layout::new(mechanics);
+        let pattern: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
+        let saddle = layout
+            .saddle(mechanics, &[&pattern])
+            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
+        let sizes = mechanics.sizes();
+        Ok(Self {
+            inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
+            system: SaddleSystem::new(saddle),
+            mass: mechanics.mass().iter().map(|e| e.value).collect(),
+            jacobian: vec![0.0; mechanics.jacobian_pattern().len()],
+            phi: vec![0.0; sizes.constraints],
+            rhs: vec![0.0; layout.unknowns() + sizes.constraints],
+            layout,
+            mechanics,
+        })
+    }
+
+    /// Projects full velocities `v`, prescribed components kept, onto A(q) q̇ = 0.
+    ///
+    /// # Errors
+    /// The matrix is singular or not finite.
+    pub fn velocity(&mut self, q: &[f64], v: &mut [f64]) -> Result<Moved, ProjectionError> {
+        self.factor(q)?;
+        let n = self.layout.unknowns();
+        self.rhs[..n].fill(0.0);
+        self.correct_velocity(v)
+    }
+
+    /// The velocity of momentum `p = M q̇ + Aᵀ(..)` (free components): `v` holds a guess with its prescribed
+    /// components and becomes the velocity on A(q) q̇ = 0 whose momentum differs from `p` by a constraint impulse.
+    ///
+    /// # Errors
+    /// The matrix is singular or not finite.
+    pub fn velocity_of_momentum(
+        &mut self,
+        q: &[f64],
+        p: &[f64],
+        v: &mut [f64],
+    ) -> Result<Moved, ProjectionError> {
+        self.factor(q)?;
+        for ((rhs, &p), &i) in self.rhs.iter_mut().zip(p).zip(self.mechanics.free()) {
+            *rhs = p - self.inertia.row(i, v);
+        }
+        self.correct_velocity(v)
+    }
+
+    /// Accelerations and multipliers at a consistent state: `M q̈ - Aᵀ λ = F, A q̈ = -Ȧ q̇`, given the full force F and
+    /// `rates = Ȧ q̇`. `a` holds the prescribed accelerations and receives the free ones.
+    ///
+    /// # Errors
+    /// The matrix is singular or not finite.
+    pub fn acceleration(
+        &mut self,
+        q: &[f64],
+        force: &[f64],
+        rates: &[f64],
+        a: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), ProjectionError> {
+        self.factor(q)?;
+        let n = self.layout.unknowns();
+        for (rhs, &i) in self.rhs.iter_mut().zip(self.mechanics.free()) {
+            *rhs = force[i] - self.inertia.row(i, a);
+        }
+        self.constraint_rate(a);
+        for ((rhs, rate), moving) in self.rhs[n..].iter_mut().zip(rates).zip(&self.phi) {
+            *rhs = -rate - moving;
+        }
+        self.solve()?;
+        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
+            a[i] += delta;
+        }
+        lambda.copy_from_slice(&self.rhs[n..]);
+        Ok(())
+    }
+
+    /// The system that states are projected for.
+    pub fn mechanics(&self) -> &'m dyn Mechanics {
+        self.mechanics
+    }
+
+    /// Moves the free components of `q` until Φ(q) = 0.
+    ///
+    /// # Errors
+    /// The matrix is singular or not finite, or Newton's method does not converge.
+    pub fn position(&mut self, q: &mut [f64]) -> Result<Moved, ProjectionError> {
+        let start = q.to_vec();
+        let n = self.layout.unknowns();
+        let mut before = f64::INFINITY;
+        for iterations in 0..=MAX_ITERATIONS {
+            let (worst, residual) = self.constraint_residual(q);
+            if residual <= CONSISTENT || (residual <= ACCEPTED && residual >= 0.5 * before) {
+                let (coordinate, largest) = largest_change(self.mechanics.free(), &start, q);
+                return Ok(Moved { largest, coordinate, iterations, residual });
+            }
+            if iterations == MAX_ITERATIONS || !residual.is_finite() {
+                let constraint = self.mechanics.constraint_name(worst);
+                return Err(ProjectionError::NotConverged { constraint, residual, iterations });
+            }
+            before = residual;
+            self.factor(q)?;
+            self.rhs[..n].fill(0.0);
+            for (rhs, phi) in self.rhs[n..].iter_mut().zip(&self.phi) {
+                *rhs = -phi;
+            }
+            self.solve()?;
+            for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
+                q[i] += delta;
+            }
+        }
+        unreachable!("the loop returns at its last iteration")
+    }
+
+    /// Index and size of the largest scaled constraint residual at `q`.
+    pub fn constraint_residual(&mut self, q: &[f64]) -> (usize, f64) {
+        self.mechanics.constraints(q, &mut self.phi);
+        let scaled = self.phi.iter().zip(self.mechanics.constraint_scales()).map(|(phi, s)| phi.abs() / s);
+        scaled.enumerate().fold((0, 0.0), |best, (j, r)| if r <= best.1 { best } else { (j, r) })
+    }
+
+    /// Systems that needed the pivoting factorisation so far.
+    pub fn fallbacks(&self) -> u64 {
+        self.system.counts().fallbacks
+    }
+
+    fn factor(&mut self, q: &[f64]) -> Result<(), ProjectionError> {
+        self.mechanics.jacobian(q, &mut self.jacobian);
+        self.system.clear_leading();
+        self.system.add_leading(0, 1.0, &self.mass);
+        self.system.set_jacobian(&self.jacobian, &self.jacobian);
+        let result = self.system.factor();
+        self.named(result)
+    }
+
+    fn solve(&mut self) -> Result<(), ProjectionError> {
+        let result = self.system.solve(&mut self.rhs).map(drop);
+        self.named(result)
+    }
+
+    fn named<T>(&self, result: Result<T, SparseError>) -> Result<T, ProjectionError> {
+        result.map_err(|source| ProjectionError::Solver {
+            culprit: self.layout.name(self.mechanics, &source),
+            source,
+        })
+    }
+
+    /// Solves for the correction with the momentum part of the right-hand side in place.
+    fn correct_velocity(&mut self, v: &mut [f64]) -> Result<Moved, ProjectionError> {
+        let n = self.layout.unknowns();
+        self.constraint_rate(v);
+        for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
+            *rhs = -rate;
+        }
+        self.solve()?;
+        let mut moved = Moved { largest: 0.0, coordinate: 0, iterations: 1, residual: 0.0 };
+        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
+            v[i] += delta;
+            if delta.abs() > moved.largest {
+                (moved.largest, moved.coordinate) = (delta.abs(), i);
+            }
+        }
+        self.constraint_rate(v);
+        moved.residual = self.phi.iter().fold(0.0, |worst, rate| worst.max(rate.abs()));
+        Ok(moved)
+    }
+
+    /// A q̇ of all coordinates into `phi`.
+    fn constraint_rate(&mut self, v: &[f64]) {
+        self.phi.fill(0.0);
+        for (&(row, i), a) in self.mechanics.jacobian_pattern().iter().zip(&self.jacobian) {
+            self.phi[row] += a * v[i];
+        }
+    }
+}
+
+fn largest_change(free: &[usize], from: &[f64], to: &[f64]) -> (usize, f64) {
+    free.iter().fold((0, 0.0), |best, &i| {
+        let change = (to[i] - from[i]).abs();
+        if change > best.1 { (i, change) } else { best }
+    })
+}
