@@ -38,7 +38,7 @@ const WHOLE: f64 = 1e-6;
 /// let mut stepper = Symplectic::new(&model, NewtonOptions::default())?;
 /// let mut state = stepper.start(0.0, &model.initial_coordinates(), &model.velocities_at_rest())?;
 /// let mut lowest = 0.0_f64;
-/// let tip = model.form(bar.node(1)).ok_or("no tip")?;
+/// let tip = model.form(bar.node(1))?;
 /// let mut watch = |state: &tg_integrate::State, _: &_| lowest = lowest.min(tip.eval(&state.q).y);
 /// Run::new(1e-3, 1.0).observe(&mut watch).go(&mut stepper, &mut state)?;
 /// assert!(lowest < -0.99);

@@ -193,6 +193,35 @@ pub enum BuildError {
     Sparse(#[from] SparseError),
 }
 
+/// Why a place is not one of a model.
+#[derive(Clone, Debug, Error)]
+pub enum PlaceError {
+    /// The member's handle comes from another builder.
+    #[error("the structure has no member number {0}; use the handles of the builder that it was built with")]
+    NoSuchMember(usize),
+    /// The anchor's handle comes from another builder.
+    #[error("the structure has no anchor number {0}; use the handles of the builder that it was built with")]
+    NoSuchAnchor(usize),
+    /// The member has fewer nodes.
+    #[error("\"{member}\" has no node {node}; its {nodes} nodes count from 0")]
+    NoSuchNode {
+        /// Name of the member.
+        member: String,
+        /// Node asked for.
+        node: usize,
+        /// Number of nodes.
+        nodes: usize,
+    },
+    /// The point is not on the member.
+    #[error("\"{member}\": {source}")]
+    NotOfMember {
+        /// Name of the member.
+        member: String,
+        /// The reason.
+        source: CoordsError,
+    },
+}
+
 fn count(n: usize) -> String {
     if n == 1 { "1 redundant constraint".into() } else { format!("{n} redundant constraints") }
 }

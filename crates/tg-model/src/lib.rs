@@ -57,7 +57,7 @@ mod signal;
 
 pub use builder::{AnchorId, CableId, Joining, LoadId, MemberId, ModelBuilder, Place, Redundancies};
 pub use cables::CableState;
-pub use error::BuildError;
+pub use error::{BuildError, PlaceError};
 pub use form::Form;
 pub use inertia::Inertia;
 pub use law::{CableLaw, Tension, TensionLaw};

@@ -7,6 +7,7 @@ use crate::builder::{AnchorId, CableId, LoadId, MemberId, Place};
 use crate::cables::{CableState, Cables, cable_state};
 use crate::constraints::Constraints;
 use crate::drive::Drive;
+use crate::error::PlaceError;
 use crate::form::{Form, node};
 use crate::inertia::Inertia;
 use crate::law::CableLaw;
@@ -106,21 +107,37 @@ impl<const D: usize> Model<D> {
         u
     }
 
-    /// The linear form of a place; `None` if the place is not of this model or the point not of its member.
-    pub fn form(&self, place: impl Into<Place<D>>) -> Option<Form<D>> {
+    /// The linear form of a place: its position from q, its velocity from q̇.
+    ///
+    /// # Errors
+    /// The place is not of this model, or the point not of its member.
+    pub fn form(&self, place: impl Into<Place<D>>) -> Result<Form<D>, PlaceError> {
+        let member = |MemberId(m)| self.members.get(m).ok_or(PlaceError::NoSuchMember(m));
         match place.into() {
-            Place::Node(MemberId(m), i) => {
-                self.members.get(m)?.nodes.get(i).map(|&node| Form::new([(node, 1.0)]))
+            Place::Node(id, i) => {
+                let placed = member(id)?;
+                let node = placed.nodes.get(i).ok_or_else(|| PlaceError::NoSuchNode {
+                    member: placed.name.clone(),
+                    node: i,
+                    nodes: placed.nodes.len(),
+                })?;
+                Ok(Form::new([(*node, 1.0)]))
             }
-            Place::Material(MemberId(m), local) => {
-                let placed = self.members.get(m)?;
-                Some(placed.form(placed.member.point_weights(local.into()).ok()?.as_slice()))
+            Place::Material(id, local) => {
+                let placed = member(id)?;
+                match placed.member.point_weights(local.into()) {
+                    Ok(weights) => Ok(placed.form(weights.as_slice())),
+                    Err(source) => Err(PlaceError::NotOfMember { member: placed.name.clone(), source }),
+                }
             }
-            Place::MassCentre(MemberId(m)) => {
-                let placed = self.members.get(m)?;
-                Some(placed.form(placed.member.mass_centre_weights().as_slice()))
+            Place::MassCentre(id) => {
+                let placed = member(id)?;
+                Ok(placed.form(placed.member.mass_centre_weights().as_slice()))
             }
-            Place::Anchor(AnchorId(a)) => self.anchors.get(a).map(|&node| Form::new([(node, 1.0)])),
+            Place::Anchor(AnchorId(a)) => {
+                let node = self.anchors.get(a).ok_or(PlaceError::NoSuchAnchor(a))?;
+                Ok(Form::new([(*node, 1.0)]))
+            }
         }
     }
 
