@@ -63,10 +63,9 @@ pub enum CoordsError {
     },
     /// The base vectors are collinear, coplanar or of zero length.
     #[error(
-        "the base vectors of coordinate type {coord_type} are degenerate (collinear, coplanar or of \
-         zero length): \
-         condition number {condition:.3e}, at most {limit:.0e} is accepted; choose basic points and base vectors \
-         of similar length that point in clearly different directions"
+        "the base vectors of coordinate type {coord_type} are degenerate (collinear, coplanar or of zero length): \
+         condition number {condition:.3e}, at most {limit:.0e} is accepted; choose basic points and base \
+         vectors of similar length that point in clearly different directions"
     )]
     DegenerateBasis {
         /// Type of the member.

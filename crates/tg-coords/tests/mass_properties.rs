@@ -127,6 +127,15 @@ fn bad_masses() {
     }
 }
 
+/// An asymmetry of rounding size is split evenly between the two entries.
+#[test]
+fn rounding_of_a_symmetric_matrix_is_evened_out() {
+    let given = Matrix2::new(1.0, 0.25 + 1e-12, 0.25, 1.0);
+    let j = MassProperties::from_second_moment(1.0, v([0.0, 0.0]), given).unwrap().second_moment();
+    assert_eq!(j[(0, 1)], j[(1, 0)]);
+    assert!((j[(0, 1)] - (0.25 + 0.5e-12)).abs() < 1e-16);
+}
+
 #[test]
 fn bad_second_moments() {
     let origin = v([0.0, 0.0]);

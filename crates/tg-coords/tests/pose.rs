@@ -16,6 +16,9 @@ fn a_planar_pose_turns_counterclockwise() {
     assert!((moved - v([1.0, 3.0])).amax() < 1e-15);
     assert!((pose.apply_vector(&v([0.0, 1.0])) - v([-1.0, 0.0])).amax() < 1e-15);
     assert!((pose.angle() - FRAC_PI_2).abs() < 1e-15);
+    for angle in [-3.0, -1.0, 0.0, 0.4, 2.0, 3.1] {
+        assert!((Pose::planar(1.0, 2.0, angle).angle() - angle).abs() < 1e-15);
+    }
     assert_eq!(Pose::planar(0.0, 0.0, 0.3).rotation, rotation2(0.3));
 }
 
