@@ -40,12 +40,13 @@ pub(crate) fn assemble<const D: usize>(builder: ModelBuilder<D>) -> Result<Model
         list.into_iter().partition(|named| named.constraint.coordinates().into_iter().any(is_free));
     held.iter().try_for_each(|named| check_held(named, &q, &v))?;
 
-    let redundant = redundancy::find(&list, &free, &q)?;
+    let redundant = redundancy::find(&list, &free, &q, &v)?;
     let mut dropped = Vec::new();
     if !redundant.rows.is_empty() {
         if builder.redundancies == Redundancies::Reject {
             return Err(BuildError::Redundant { list: redundant.named, tolerance: redundancy::TOLERANCE });
         }
+        redundant.check_consistent(MEETING)?;
         for &row in redundant.rows.iter().rev() {
             dropped.push(list.remove(row).constraint);
         }
@@ -127,6 +128,9 @@ fn share_points<const D: usize>(
         let a = nodes.shareable(builder, &joint.name, first)?;
         for &other in places {
             let b = nodes.shareable(builder, &joint.name, other)?;
+            if a == b {
+                return Err(with_itself(joint));
+            }
             let distance = (nodes.position(b) - nodes.position(a)).norm();
             meet(builder, nodes, joint, (first, other), distance, allowed)?;
             nodes.merge(a, b);
@@ -136,6 +140,10 @@ fn share_points<const D: usize>(
         Some(m) => Err(BuildError::SelfJoined { member: builder.members[m].name.clone() }),
         None => Ok(()),
     }
+}
+
+fn with_itself<const D: usize>(joint: &JointPart<D>) -> BuildError {
+    BuildError::MeaninglessJoint { name: joint.name.clone(), what: "joins a point with itself" }
 }
 
 fn meet<const D: usize>(
@@ -192,11 +200,9 @@ fn joints<const D: usize>(
         for &other in places {
             let gap = nodes.point(builder, "joint", &joint.name, other)?.minus(&a);
             meet(builder, nodes, joint, (first, other), gap.eval(&q).norm(), allowed)?;
-            if gap.terms().is_empty() {
-                return Err(BuildError::MeaninglessJoint {
-                    name: joint.name.clone(),
-                    what: "joins a point with itself",
-                });
+            // A material point at a basic point has its weights to rounding only.
+            if gap.terms().iter().all(|(_, w)| w.abs() <= MEETING) {
+                return Err(with_itself(joint));
             }
             let scale = nodes.scale(builder, &[first, other]);
             list.extend((0..D).map(|axis| Named {
@@ -301,7 +307,7 @@ fn cables<const D: usize>(
         let from = nodes.point(builder, "cable", &part.name, part.from)?;
         let form = nodes.point(builder, "cable", &part.name, part.to)?.minus(&from);
         let length = form.eval(&q).norm();
-        if length <= f64::EPSILON * nodes.size() {
+        if length <= MEETING * nodes.size() {
             return Err(BuildError::ZeroLengthCable {
                 name: part.name.clone(),
                 from: nodes.describe(builder, part.from),

@@ -295,7 +295,7 @@ impl<const D: usize> ModelBuilder<D> {
     /// Adds a massless cable between two places with its rest length μ \[m\], constant or driven.
     ///
     /// # Errors
-    /// The name is taken, κ or η is negative or not finite, or the rest length is not positive or its signal wrong.
+    /// The name is taken, κ or η is negative or not finite, or a constant rest length is negative or its signal wrong.
     pub fn cable(
         &mut self,
         name: &str,

@@ -185,6 +185,16 @@ pub enum BuildError {
         /// Sine of the angle below which a gradient counts as dependent.
         tolerance: f64,
     },
+    /// A redundant constraint demands something else than those that imply its gradient; dropping it would hide that.
+    #[error(
+        "{redundancy} in its gradient, but contradicts that by {violation:.3e} (scaled); make the supports and joints agree or remove one"
+    )]
+    ContradictoryConstraint {
+        /// The constraint and those that it contradicts.
+        redundancy: Redundancy,
+        /// Scaled difference of the residuals or relative difference of the rates at t = 0.
+        violation: f64,
+    },
     /// The structure has nothing to solve for.
     #[error("the structure has no free coordinate; add a member or free a support")]
     NothingFree,

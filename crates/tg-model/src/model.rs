@@ -234,11 +234,13 @@ impl<const D: usize> Model<D> {
     }
 
     /// Largest scaled violation of the redundant constraints that `build()` left out; it stays at the level of the
-    /// others' as long as they are implied.
+    /// others' as long as they are implied. NaN if a coordinate is.
     pub fn dropped_violation(&self, q: &[f64]) -> f64 {
         let mut phi = vec![0.0; self.dropped.len()];
         self.dropped.residual::<D>(q, &mut phi);
-        phi.iter().zip(self.dropped.scales()).map(|(phi, s)| phi.abs() / s).fold(0.0, f64::max)
+        let scaled = phi.iter().zip(self.dropped.scales()).map(|(phi, s)| phi.abs() / s);
+        // NaN stays: it is no small violation.
+        scaled.fold(0.0, |worst, x| if x <= worst || worst.is_nan() { worst } else { x })
     }
 
     /// First input of load `k`.

@@ -171,7 +171,8 @@ impl<'m> Projector<'m> {
         let mut before = f64::INFINITY;
         for iterations in 0..=MAX_ITERATIONS {
             let (worst, residual) = self.constraint_residual(q);
-            if residual <= CONSISTENT || (residual <= ACCEPTED && residual >= 0.5 * before) {
+            let accepted = ACCEPTED.max(self.rounding(worst, q));
+            if residual <= CONSISTENT || (residual <= accepted && residual >= 0.5 * before) {
                 let (coordinate, largest) = largest_change(self.mechanics.free(), &start, q);
                 return Ok(Moved { largest, coordinate, iterations, residual });
             }
@@ -197,7 +198,18 @@ impl<'m> Projector<'m> {
     pub fn constraint_residual(&mut self, q: &[f64]) -> (usize, f64) {
         self.mechanics.constraints(q, &mut self.phi);
         let scaled = self.phi.iter().zip(self.mechanics.constraint_scales()).map(|(phi, s)| phi.abs() / s);
-        scaled.enumerate().fold((0, 0.0), |best, (j, r)| if r <= best.1 { best } else { (j, r) })
+        scaled
+            .enumerate()
+            .fold((0, 0.0), |best, (j, r)| if r <= best.1 || best.1.is_nan() { best } else { (j, r) })
+    }
+
+    /// Scaled residual of a constraint that the rounding of its coordinates can leave, from the last Jacobian: large
+    /// where a structure is small against its distance from the origin.
+    fn rounding(&self, row: usize, q: &[f64]) -> f64 {
+        let entries = self.mechanics.jacobian_pattern().iter().zip(&self.jacobian);
+        let sum: f64 = entries.filter(|((j, _), _)| *j == row).map(|(&(_, i), a)| (a * q[i]).abs()).sum();
+        let scale = self.mechanics.constraint_scales().get(row).copied().unwrap_or(1.0);
+        4.0 * f64::EPSILON * sum / scale
     }
 
     /// Systems that needed the pivoting factorisation so far.

@@ -19,12 +19,28 @@ pub(crate) struct Found {
     /// Rows, ascending.
     pub(crate) rows: Vec<usize>,
     pub(crate) named: Vec<Redundancy>,
+    /// By how much each row differs from its combination in residual or rate (scaled): only the gradients over the
+    /// free coordinates agree by necessity.
+    violations: Vec<f64>,
+}
+
+impl Found {
+    /// Refuses a row that demands something else than the rows that imply it.
+    pub(crate) fn check_consistent(&self, tolerance: f64) -> Result<(), BuildError> {
+        match self.named.iter().zip(&self.violations).find(|(_, violation)| **violation > tolerance) {
+            None => Ok(()),
+            Some((found, &violation)) => {
+                Err(BuildError::ContradictoryConstraint { redundancy: found.clone(), violation })
+            }
+        }
+    }
 }
 
 pub(crate) fn find<const D: usize>(
     list: &[Named<D>],
     free: &[usize],
     q: &[f64],
+    v: &[f64],
 ) -> Result<Found, BuildError> {
     let mut reduced = vec![None; q.len()];
     for (k, &i) in free.iter().enumerate() {
@@ -53,5 +69,20 @@ pub(crate) fn find<const D: usize>(
             }
         })
         .collect();
-    Ok(Found { rows: dependent.iter().map(|row| row.row).collect(), named })
+    let (mut residual, mut rate, mut speed) =
+        (vec![0.0; list.len()], vec![0.0; list.len()], vec![0.0; list.len()]);
+    flat.residual::<D>(q, &mut residual);
+    for (&(row, i), a) in flat.jacobian_pattern::<D>().iter().zip(&values) {
+        rate[row] += a * v[i];
+        speed[row] += (a * v[i]).abs();
+    }
+    let violations = dependent.iter().map(|row| {
+        let differs =
+            |x: &[f64]| (x[row.row] - row.combination.iter().map(|&(k, c)| c * x[k]).sum::<f64>()).abs();
+        let moving = speed[row.row] + row.combination.iter().map(|&(k, c)| (c * speed[k]).abs()).sum::<f64>();
+        let by_rate = if moving > 0.0 { differs(&rate) / moving } else { 0.0 };
+        by_rate.max(differs(&residual) / flat.scales()[row.row])
+    });
+    let violations = violations.collect();
+    Ok(Found { rows: dependent.iter().map(|row| row.row).collect(), named, violations })
 }

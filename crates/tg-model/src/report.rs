@@ -61,7 +61,7 @@ impl fmt::Display for BuildReport {
 pub struct Redundancy {
     /// The dependent constraint.
     pub constraint: String,
-    /// The constraints that imply it.
+    /// The constraints that imply it; none if its gradient over the free coordinates vanishes.
     pub implied_by: Vec<String>,
     /// Sine of the angle between its gradient and their span.
     pub sine: f64,
@@ -70,6 +70,13 @@ pub struct Redundancy {
 impl fmt::Display for Redundancy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         const SHOWN: usize = 6;
+        if self.implied_by.is_empty() {
+            return write!(
+                f,
+                "{} is implied by the supports (no free coordinate changes it here)",
+                self.constraint
+            );
+        }
         let shown = self.implied_by.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
         write!(f, "{} is implied by {shown}", self.constraint)?;
         match self.implied_by.len().saturating_sub(SHOWN) {

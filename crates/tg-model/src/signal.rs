@@ -145,7 +145,7 @@ impl Signal {
         }
     }
 
-    /// Checks the parameters; a user's function is checked where it is evaluated.
+    /// Checks the parameters, of a user's function its value and rate at t = 0.
     ///
     /// # Errors
     /// A parameter is not finite, a ramp has no duration, or a table is not sorted.
@@ -167,7 +167,11 @@ impl Signal {
             }
             Self::Table(table) => table.check(),
             Self::Sum(signals) => signals.iter().try_for_each(Self::check),
-            Self::User(_) => Ok(()),
+            Self::User(function) => {
+                let (value, rate) = function(0.0);
+                finite("value at t = 0", value)?;
+                finite("rate at t = 0", rate)
+            }
         }
     }
 }
