@@ -1,2 +1,34 @@
-//! The papers' examples as regression runs, with independent reference models.
+//! The papers' examples, each a small program over the layers with its own independent truth, and the table of every
+//! number beside its reference.
+//!
+//! ```no_run
+//! use tg_cases::verify::CASES;
+//!
+//! for case in CASES {
+//!     let rows = (case.rows)()?;
+//!     let hold = rows.iter().filter(|row| row.pass).count();
+//!     println!("{}: {hold} of {} numbers hold", case.name, rows.len());
+//! }
+//! # Ok::<(), tg_cases::error::CaseError>(())
+//! ```
+//!
+//! | part of the framework paper | item |
+//! |---|---|
+//! | Sec. 6.1, example 1 | [`double_pendulum`], checked by [`verify::double_pendulum`] |
+//! | Sec. 6.2, example 2, dynamics | [`tower`], checked by [`verify::tower`] |
+//! | Tables 2 and 3, planar members | [`plane`] |
+//! | Fig. 17, slack intervals | [`slack`] |
+//!
+//! [`reference`](mod@reference) holds the minimal-coordinate models, which share no code with the layers; [`published`] the reference
+//! values computed elsewhere; [`simulate`] runs that several cases share.
+
+pub mod double_pendulum;
+pub mod error;
+pub mod plane;
+pub mod published;
 pub mod reference;
+pub mod row;
+pub mod simulate;
+pub mod slack;
+pub mod tower;
+pub mod verify;

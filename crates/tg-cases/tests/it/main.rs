@@ -1,0 +1,5 @@
+//! The cases as tests: every verified number holds, and key numbers do not change unseen.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod rows;
+mod snapshots;
