@@ -46,7 +46,7 @@ pub(crate) fn assemble<const D: usize>(builder: ModelBuilder<D>) -> Result<Model
         if builder.redundancies == Redundancies::Reject {
             return Err(BuildError::Redundant { list: redundant.named, tolerance: redundancy::TOLERANCE });
         }
-        redundant.check_consistent(MEETING)?;
+        redundant.check_consistent(&list, allowed)?;
         for &row in redundant.rows.iter().rev() {
             dropped.push(list.remove(row).constraint);
         }

@@ -61,6 +61,14 @@ impl<const D: usize> Constraint<D> {
             Self::Dot { scale, .. } | Self::Linear { scale, .. } => *scale,
         }
     }
+
+    /// The scale as a length \[m\].
+    pub(crate) fn length(&self) -> f64 {
+        match self {
+            Self::Dot { scale, .. } => scale.sqrt(),
+            Self::Linear { scale, .. } => *scale,
+        }
+    }
 }
 
 impl Constraints {

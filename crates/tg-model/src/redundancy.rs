@@ -25,14 +25,22 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Refuses a row that demands something else than the rows that imply it.
-    pub(crate) fn check_consistent(&self, tolerance: f64) -> Result<(), BuildError> {
-        match self.named.iter().zip(&self.violations).find(|(_, violation)| **violation > tolerance) {
-            None => Ok(()),
-            Some((found, &violation)) => {
-                Err(BuildError::ContradictoryConstraint { redundancy: found.clone(), violation })
+    /// Refuses a row that demands something else than the rows that imply it; points that meet may be apart by
+    /// `allowed` \[m\].
+    pub(crate) fn check_consistent<const D: usize>(
+        &self,
+        list: &[Named<D>],
+        allowed: f64,
+    ) -> Result<(), BuildError> {
+        for ((&row, &violation), redundancy) in self.rows.iter().zip(&self.violations).zip(&self.named) {
+            if violation > 10.0 * allowed / list[row].constraint.length() {
+                return Err(BuildError::ContradictoryConstraint {
+                    redundancy: redundancy.clone(),
+                    violation,
+                });
             }
         }
+        Ok(())
     }
 }
 

@@ -1,4 +1,5 @@
 //! Signals: values, rates, holds, kinks and what is refused.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod support;
 
