@@ -53,7 +53,7 @@ impl<'m> GeneralizedAlpha<'m> {
     /// A stepper with 0 ≤ ρ∞ < 1: 0 damps most, 1 would not damp at all (and is not stable with constraints).
     ///
     /// # Errors
-    /// ρ∞ is out of range, or the pattern of the system cannot be analysed.
+    /// ρ∞ or an option is out of range, or the pattern of the system cannot be analysed.
     pub fn new(
         mechanics: &'m dyn Mechanics,
         rho_infinity: f64,
@@ -66,6 +66,7 @@ impl<'m> GeneralizedAlpha<'m> {
                 must: "be at least 0 and less than 1",
             });
         }
+        options.check()?;
         let alpha_m = (2.0 * rho_infinity - 1.0) / (rho_infinity + 1.0);
         let alpha_f = rho_infinity / (rho_infinity + 1.0);
         let gamma = 0.5 + alpha_f - alpha_m;
@@ -224,6 +225,9 @@ impl Stepper for GeneralizedAlpha<'_> {
         if !(h.is_finite() && h > 0.0) {
             return Err(StepError { t, h, residual: f64::NAN, failure: StepFailure::BadStep });
         }
+        state
+            .check_lengths(self.system.mechanics.sizes(), 2 * self.q.len())
+            .map_err(|failure| StepError { t, h, residual: f64::NAN, failure })?;
         let fallbacks = self.system.fallbacks();
         self.q.copy_from_slice(&state.q);
         self.v.copy_from_slice(&state.v);
@@ -238,7 +242,7 @@ impl Stepper for GeneralizedAlpha<'_> {
         match self.iterate(state, h) {
             Ok((iterations, residual)) => {
                 let n = self.q.len();
-                state.t += h;
+                state.advance_time(h);
                 state.q.copy_from_slice(&self.q);
                 state.v.copy_from_slice(&self.v);
                 state.lambda.copy_from_slice(&self.lambda);

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 use crate::state::State;
-use crate::stepper::{StepError, StepReport, Stepper};
+use crate::stepper::{StepError, StepFailure, StepReport, Stepper};
 
 /// Sees each accepted step, and the start with an empty report.
 pub trait Observer {
@@ -127,12 +127,14 @@ impl<'a> Run<'a> {
     /// Runs from `state`, which follows the accepted steps.
     ///
     /// # Errors
-    /// A step fails; `state` is then that of the last accepted step.
+    /// The step is not positive and finite, the end is NaN, or a step fails; `state` is then that of the last accepted
+    /// step.
     pub fn go(mut self, stepper: &mut dyn Stepper, state: &mut State) -> Result<Summary, RunError> {
         let mut summary = Summary::default();
+        self.check(state.t)?;
         self.show(state, &StepReport::default());
         loop {
-            let left = self.end - state.t;
+            let left = (self.end - state.t) - state.t_rest;
             if left <= WHOLE * self.step {
                 summary.ended = Ended::AtEnd;
                 return Ok(summary);
@@ -154,6 +156,19 @@ impl<'a> Run<'a> {
                 return Ok(summary);
             }
         }
+    }
+
+    /// Bad numbers would end the run in silence (an infinite step) or never (an end that is NaN).
+    fn check(&self, t: f64) -> Result<(), RunError> {
+        let failure = if !(self.step.is_finite() && self.step > 0.0) {
+            StepFailure::BadStep
+        } else if self.end.is_nan() {
+            StepFailure::BadEnd { end: self.end }
+        } else {
+            return Ok(());
+        };
+        let failure = Box::new(StepError { t, h: self.step, residual: f64::NAN, failure });
+        Err(RunError { failure, summary: Summary::default() })
     }
 
     fn show(&mut self, state: &State, report: &StepReport) {

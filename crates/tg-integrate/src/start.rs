@@ -24,14 +24,14 @@ pub(crate) fn check(mechanics: &dyn Mechanics, t: f64, q: &[f64], v: &[f64]) -> 
     mechanics.prescribe(t, &mut q, &mut v);
     match q.iter().zip(&v).position(|(q, v)| !q.is_finite() || !v.is_finite()) {
         Some(i) => Err(StartError::NotFinite(mechanics.coordinate_name(i))),
-        None => Ok(State { t, q, v, lambda: vec![0.0; sizes.constraints], memory: Vec::new() }),
+        None => Ok(State { t, q, v, lambda: vec![0.0; sizes.constraints], ..State::default() }),
     }
 }
 
 /// Checks the constraints and projects the velocities.
 pub(crate) fn project(projector: &mut Projector<'_>, mut state: State) -> Result<State, StartError> {
     let (worst, residual) = projector.constraint_residual(&state.q);
-    if residual > ASSEMBLED {
+    if residual > ASSEMBLED || residual.is_nan() {
         let constraint = projector.mechanics().constraint_name(worst);
         return Err(StartError::Inconsistent { constraint, residual });
     }

@@ -10,8 +10,9 @@
 //! Ḿ has the free rows of M and all columns, so moving supports enter through Δ alone. Measured additions:
 //!
 //! - The momentum is projected on A M⁻¹ p = 0 at the end of each step. Its normal part would flip sign every step and
-//!   never decay: invisible in q, it pollutes q̇, λ and the energy. Since A(q_{k+1})ᵀ ν is normal, (53b)'s last
-//!   term need not be added. The state keeps the projected velocity; p_k = Ḿ q̇_k.
+//!   never decay: invisible in q, it pollutes q̇, λ and the energy. The state keeps the projected velocity;
+//!   p_k = Ḿ q̇_k. (53b)'s last term is normal, and the projection would remove h/2 F's part along it as well, but
+//!   only to the rounding of that part, which at rest is far above q̇.
 //! - Newton starts from q_k + h q̇_k.
 //! - The unknown is Δ, not q_{k+1}: no digits cancel at small steps.
 //! - Residuals are compared with their own terms (dynamic rows) and with the member's size (constraints), so that the
@@ -73,8 +74,9 @@ impl<'m> Symplectic<'m> {
     /// A stepper for a system, with its workspace.
     ///
     /// # Errors
-    /// The pattern of the system cannot be analysed.
+    /// An option is out of range, or the pattern of the system cannot be analysed.
     pub fn new(mechanics: &'m dyn Mechanics, options: NewtonOptions) -> Result<Self, StartError> {
+        options.check()?;
         let sizes = mechanics.sizes();
         let (n, m) = (sizes.coordinates, sizes.constraints);
         let projector = Projector::new(mechanics)?;
@@ -98,7 +100,7 @@ impl<'m> Symplectic<'m> {
                 taut: vec![false; sizes.switches],
                 taut_by_law: vec![false; sizes.switches],
             },
-            trial: State { t: 0.0, q: zeros(), v: zeros(), lambda: vec![0.0; m], memory: Vec::new() },
+            trial: State { q: zeros(), v: zeros(), lambda: vec![0.0; m], ..State::default() },
             project: true,
             system,
             projector,
@@ -228,19 +230,18 @@ impl<'m> Symplectic<'m> {
     /// Momentum (53b), its projection, and the new state.
     fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
         let w = &mut self.work;
+        self.system.set_upper(&w.q_end);
+        self.system.spread_multipliers(&w.nu);
         for (k, &i) in self.system.mechanics.free().iter().enumerate() {
-            w.p[k] = self.system.inertia.row(i, &w.delta) / h + 0.5 * h * w.force[i];
+            let reaction = self.system.constraint_force[i] / h;
+            w.p[k] = self.system.inertia.row(i, &w.delta) / h + 0.5 * h * w.force[i] + reaction;
             w.v_end[i] = w.delta[i] / h;
         }
         self.projector.velocity_of_momentum(&w.q_end, &w.p, &mut w.v_end)?;
         if !self.project {
-            self.system.set_upper(&w.q_end);
-            self.system.spread_multipliers(&w.nu);
-            for (k, &i) in self.system.mechanics.free().iter().enumerate() {
-                state.memory[k] = w.p[k] + self.system.constraint_force[i] / h;
-            }
+            state.memory.copy_from_slice(&w.p);
         }
-        state.t += h;
+        state.advance_time(h);
         state.q.copy_from_slice(&w.q_end);
         state.v.copy_from_slice(&w.v_end);
         for (lambda, nu) in state.lambda.iter_mut().zip(&w.nu) {
@@ -270,6 +271,9 @@ impl Stepper for Symplectic<'_> {
         if !(h.is_finite() && h > 0.0) {
             return Err(StepError { t, h, residual: f64::NAN, failure: StepFailure::BadStep });
         }
+        state
+            .check_lengths(self.system.mechanics.sizes(), self.trial.memory.len())
+            .map_err(|failure| StepError { t, h, residual: f64::NAN, failure })?;
         let fallbacks = self.fallbacks();
         let mut report = StepReport::default();
         let mut failed = None;
@@ -312,7 +316,6 @@ impl Symplectic<'_> {
         report: &mut StepReport,
     ) -> Result<(), Failed> {
         *report = StepReport { iterations: report.iterations, substeps, ..StepReport::default() };
-        let end = state.t + h;
         for _ in 0..substeps {
             let done = self.advance(state, h / f64::from(substeps), last);
             report.iterations += match &done {
@@ -324,7 +327,6 @@ impl Symplectic<'_> {
             report.frozen += u32::from(converged.frozen);
             report.forced += converged.forced;
         }
-        state.t = end;
         Ok(())
     }
 

@@ -1,0 +1,40 @@
+//! One step of the symplectic scheme: example 1, example 2, and chains of prisms in space.
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use support::tower::{self, tower};
+use support::{alpha, example1, prism, start, symplectic};
+use tg_integrate::Stepper;
+use tg_model::Model;
+
+#[path = "../tests/support/mod.rs"]
+mod support;
+
+const STEP: f64 = 1e-3;
+
+/// Steps onward from the start: the iterations are those of a moving structure.
+fn stepping<const D: usize>(c: &mut Criterion, name: &str, size: &str, model: &Model<D>) {
+    let mut group = c.benchmark_group(name);
+    let mut steppers: [(&str, Box<dyn Stepper + '_>); 2] =
+        [("symplectic", Box::new(symplectic(model))), ("generalised-alpha", Box::new(alpha(model, 0.7)))];
+    for (scheme, stepper) in &mut steppers {
+        let mut state = start(model, stepper.as_mut());
+        group.bench_function(BenchmarkId::new(*scheme, size), |b| {
+            b.iter(|| stepper.step(black_box(&mut state), STEP));
+        });
+    }
+    group.finish();
+}
+
+fn all(c: &mut Criterion) {
+    stepping(c, "double pendulum", "", &example1().model);
+    stepping(c, "tower", "UN", &tower(tower::UN).model);
+    for count in [2, 8, 32] {
+        let setup = prism::Setup { count, damping: 1.0, ..prism::STANDING };
+        stepping(c, "chain of prisms", &count.to_string(), &prism::prisms(setup).model);
+    }
+}
+
+criterion_group!(benches, all);
+criterion_main!(benches);
