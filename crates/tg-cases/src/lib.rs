@@ -32,3 +32,8 @@ pub mod simulate;
 pub mod slack;
 pub mod tower;
 pub mod verify;
+
+/// The README's program, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

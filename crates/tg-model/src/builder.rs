@@ -5,142 +5,23 @@
 use std::collections::HashSet;
 
 use nalgebra::SVector;
-use tg_coords::{CoordsError, Member, Pose};
+use tg_coords::{Member, Pose};
 
+use crate::assemble::assemble;
 use crate::error::BuildError;
 use crate::law::CableLaw;
 use crate::model::Model;
+use crate::parts::{
+    AnchorId, AnchorPart, CableId, CablePart, Joining, JointPart, LoadId, LoadPart, MemberId, MemberPart,
+    Parts, Place, Redundancies, SupportPart, axis_name, coordinates,
+};
 use crate::signal::Signal;
-
-/// A rigid member of a structure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct MemberId(pub(crate) usize);
-
-/// A point of the ground (or of a moving base).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct AnchorId(pub(crate) usize);
-
-/// A cable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct CableId(pub(crate) usize);
-
-/// A point force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct LoadId(pub(crate) usize);
-
-/// A place of a structure to which things are attached.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place<const D: usize> {
-    /// Node `i` of a member in the order of its coordinate type: basic points, then base vectors.
-    Node(MemberId, usize),
-    /// A material point of a member, in its local frame \[m\].
-    Material(MemberId, [f64; D]),
-    /// The mass centre of a member.
-    MassCentre(MemberId),
-    /// An anchor.
-    Anchor(AnchorId),
-}
-
-impl MemberId {
-    /// Node `i`: basic points first, then base vectors, in the order of the coordinate type's name.
-    pub fn node<const D: usize>(self, i: usize) -> Place<D> {
-        Place::Node(self, i)
-    }
-
-    /// The material point with these coordinates in the member's local frame \[m\].
-    pub fn at<const D: usize>(self, local: [f64; D]) -> Place<D> {
-        Place::Material(self, local)
-    }
-
-    /// The mass centre.
-    pub fn mass_centre<const D: usize>(self) -> Place<D> {
-        Place::MassCentre(self)
-    }
-}
-
-impl<const D: usize> From<AnchorId> for Place<D> {
-    fn from(anchor: AnchorId) -> Self {
-        Self::Anchor(anchor)
-    }
-}
-
-/// How a joint is modelled (Sec. 3.1); the motion is the same to rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joining {
-    /// The points become one node: fewer coordinates and no constraint. Basic points and anchors only.
-    Share,
-    /// Extrinsic constraints r_a - r_b = 0, eq. (19). Any points.
-    Constrain,
-}
-
-/// What to do with redundant constraints.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Redundancies {
-    /// `build()` fails and names them.
-    #[default]
-    Reject,
-    /// `build()` leaves them out and names them in the report. Right where they are implied in every
-    /// configuration, as in overconstrained linkages; [`Model::dropped_violation`] tells during the motion.
-    Drop,
-}
 
 /// Collects the parts of a structure in D-dimensional space.
 #[derive(Clone, Debug)]
 pub struct ModelBuilder<const D: usize> {
-    pub(crate) members: Vec<MemberPart<D>>,
-    pub(crate) anchors: Vec<AnchorPart<D>>,
-    pub(crate) joints: Vec<JointPart<D>>,
-    pub(crate) supports: Vec<SupportPart<D>>,
-    pub(crate) cables: Vec<CablePart<D>>,
-    pub(crate) loads: Vec<LoadPart<D>>,
-    pub(crate) gravity: SVector<f64, D>,
-    pub(crate) redundancies: Redundancies,
+    parts: Parts<D>,
     names: HashSet<(&'static str, String)>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct MemberPart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) member: Member<D>,
-    pub(crate) pose: Pose<D>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct AnchorPart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) position: SVector<f64, D>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct JointPart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) places: Vec<Place<D>>,
-    pub(crate) joining: Joining,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct SupportPart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) place: Place<D>,
-    pub(crate) axis: usize,
-    pub(crate) offset: Signal,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct CablePart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) from: Place<D>,
-    pub(crate) to: Place<D>,
-    pub(crate) law: CableLaw,
-    pub(crate) rest: Signal,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct LoadPart<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) place: Place<D>,
-    pub(crate) force: SVector<f64, D>,
-    pub(crate) factor: Signal,
 }
 
 impl<const D: usize> Default for ModelBuilder<D> {
@@ -152,7 +33,7 @@ impl<const D: usize> Default for ModelBuilder<D> {
 impl<const D: usize> ModelBuilder<D> {
     /// An empty structure without gravity.
     pub fn new() -> Self {
-        Self {
+        let parts = Parts {
             members: Vec::new(),
             anchors: Vec::new(),
             joints: Vec::new(),
@@ -161,8 +42,8 @@ impl<const D: usize> ModelBuilder<D> {
             loads: Vec::new(),
             gravity: SVector::zeros(),
             redundancies: Redundancies::Reject,
-            names: HashSet::new(),
-        }
+        };
+        Self { parts, names: HashSet::new() }
     }
 
     /// Sets the acceleration of gravity \[m/s²\].
@@ -170,13 +51,13 @@ impl<const D: usize> ModelBuilder<D> {
     /// # Errors
     /// Not finite.
     pub fn gravity(&mut self, g: [f64; D]) -> Result<(), BuildError> {
-        self.gravity = finite("gravity", "g", "acceleration", g)?;
+        self.parts.gravity = finite("gravity", "g", "acceleration", g)?;
         Ok(())
     }
 
     /// Says what `build()` does with redundant constraints; the default is to refuse them.
     pub fn redundancies(&mut self, redundancies: Redundancies) {
-        self.redundancies = redundancies;
+        self.parts.redundancies = redundancies;
     }
 
     /// Adds a rigid member, its local frame placed at `pose`.
@@ -186,8 +67,8 @@ impl<const D: usize> ModelBuilder<D> {
     pub fn member(&mut self, name: &str, member: Member<D>, pose: Pose<D>) -> Result<MemberId, BuildError> {
         pose.check().map_err(|source| coordinates("member", name, source))?;
         self.take_name("member", name)?;
-        self.members.push(MemberPart { name: name.into(), member, pose });
-        Ok(MemberId(self.members.len() - 1))
+        self.parts.members.push(MemberPart { name: name.into(), member, pose });
+        Ok(MemberId(self.parts.members.len() - 1))
     }
 
     /// Adds a bar: a uniform thin rod of type RR between two points of space \[m\].
@@ -223,8 +104,8 @@ impl<const D: usize> ModelBuilder<D> {
     pub fn anchor(&mut self, name: &str, position: [f64; D]) -> Result<AnchorId, BuildError> {
         let position = finite("anchor", name, "position", position)?;
         self.take_name("anchor", name)?;
-        self.anchors.push(AnchorPart { name: name.into(), position });
-        Ok(AnchorId(self.anchors.len() - 1))
+        self.parts.anchors.push(AnchorPart { name: name.into(), position });
+        Ok(AnchorId(self.parts.anchors.len() - 1))
     }
 
     /// Joins two or more points by a torqueless joint: a pin in the plane, a ball joint in space (Sec. 3.1).
@@ -239,7 +120,7 @@ impl<const D: usize> ModelBuilder<D> {
             });
         }
         self.take_name("joint", name)?;
-        self.joints.push(JointPart { name: name.into(), places: places.to_vec(), joining });
+        self.parts.joints.push(JointPart { name: name.into(), places: places.to_vec(), joining });
         Ok(())
     }
 
@@ -262,7 +143,7 @@ impl<const D: usize> ModelBuilder<D> {
             return Err(BuildError::NoSuchAxis { name: name.into(), axis, dimension: D });
         }
         self.take_name("support", name)?;
-        self.supports.push(SupportPart { name: name.into(), place: place.into(), axis, offset });
+        self.parts.supports.push(SupportPart { name: name.into(), place: place.into(), axis, offset });
         Ok(())
     }
 
@@ -313,8 +194,8 @@ impl<const D: usize> ModelBuilder<D> {
             not_negative(name, "rest length", value)?;
         }
         self.take_name("cable", name)?;
-        self.cables.push(CablePart { name: name.into(), from: from.into(), to: to.into(), law, rest });
-        Ok(CableId(self.cables.len() - 1))
+        self.parts.cables.push(CablePart { name: name.into(), from: from.into(), to: to.into(), law, rest });
+        Ok(CableId(self.parts.cables.len() - 1))
     }
 
     /// Adds a force at a place, fixed in space: `factor(t) · force` \[N\], eq. (25).
@@ -331,8 +212,8 @@ impl<const D: usize> ModelBuilder<D> {
         let force = finite("load", name, "force", force)?;
         let factor = checked_signal("load", name, factor.into())?;
         self.take_name("load", name)?;
-        self.loads.push(LoadPart { name: name.into(), place: place.into(), force, factor });
-        Ok(LoadId(self.loads.len() - 1))
+        self.parts.loads.push(LoadPart { name: name.into(), place: place.into(), force, factor });
+        Ok(LoadId(self.parts.loads.len() - 1))
     }
 
     /// Checks the structure as a whole and freezes it.
@@ -340,7 +221,7 @@ impl<const D: usize> ModelBuilder<D> {
     /// # Errors
     /// See [`BuildError`]; each names the offending part.
     pub fn build(self) -> Result<Model<D>, BuildError> {
-        crate::assemble::assemble(self)
+        assemble(&self.parts)
     }
 
     fn take_name(&mut self, kind: &'static str, name: &str) -> Result<(), BuildError> {
@@ -350,15 +231,6 @@ impl<const D: usize> ModelBuilder<D> {
             Err(BuildError::DuplicateName { kind, name: name.into() })
         }
     }
-}
-
-/// x, y, z.
-pub(crate) fn axis_name(axis: usize) -> char {
-    ['x', 'y', 'z'].get(axis).copied().unwrap_or('?')
-}
-
-pub(crate) fn coordinates(kind: &'static str, name: &str, source: CoordsError) -> BuildError {
-    BuildError::Coordinates { kind, name: name.into(), source }
 }
 
 fn finite<const D: usize>(

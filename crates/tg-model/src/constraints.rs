@@ -38,6 +38,11 @@ pub(crate) enum Constraint<const D: usize> {
 }
 
 impl<const D: usize> Constraint<D> {
+    /// One component of a form that is to vanish.
+    pub(crate) fn component(form: &Form<D>, axis: usize, scale: f64) -> Self {
+        Self::Linear { terms: form.terms().iter().map(|&(n, w)| (n * D + axis, w)).collect(), scale }
+    }
+
     /// Every coordinate that the constraint contains.
     pub(crate) fn coordinates(&self) -> Vec<usize> {
         match self {
@@ -69,6 +74,12 @@ impl<const D: usize> Constraint<D> {
             Self::Linear { scale, .. } => *scale,
         }
     }
+}
+
+/// A constraint and the words for it.
+pub(crate) struct Named<const D: usize> {
+    pub(crate) name: String,
+    pub(crate) constraint: Constraint<D>,
 }
 
 impl Constraints {

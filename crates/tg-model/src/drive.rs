@@ -2,7 +2,7 @@
 //!
 //! Inputs are the rest lengths of all cables, then the D components of each point force.
 
-use crate::builder::ModelBuilder;
+use crate::parts::Parts;
 use crate::signal::Signal;
 
 /// What prescribes a coordinate.
@@ -30,7 +30,7 @@ impl Drive {
     /// `prescribed` says of each coordinate whether and by what it is prescribed; `q` holds the positions that
     /// supports' offsets count from.
     pub(crate) fn new<const D: usize>(
-        builder: &ModelBuilder<D>,
+        parts: &Parts<D>,
         prescribed: &[Option<Prescription>],
         q: &[f64],
     ) -> Self {
@@ -39,15 +39,15 @@ impl Drive {
             let offset = match *prescription {
                 None => continue,
                 Some(Prescription::AtRest) => Signal::Constant(0.0),
-                Some(Prescription::By(s)) => builder.supports[s].offset.clone(),
+                Some(Prescription::By(s)) => parts.supports[s].offset.clone(),
             };
             match offset.constant() {
                 Some(offset) => held.push((i, q[i] + offset)),
                 None => moved.push((i, q[i], offset)),
             }
         }
-        let rests = builder.cables.iter().map(|cable| (1.0, &cable.rest));
-        let loads = builder.loads.iter().flat_map(|load| load.force.iter().map(|&f| (f, &load.factor)));
+        let rests = parts.cables.iter().map(|cable| (1.0, &cable.rest));
+        let loads = parts.loads.iter().flat_map(|load| load.force.iter().map(|&f| (f, &load.factor)));
         let (mut inputs, mut driven) = (Vec::new(), Vec::new());
         for (i, (factor, signal)) in rests.chain(loads).enumerate() {
             inputs.push(factor * signal.at(0.0).0);

@@ -199,8 +199,13 @@ pub enum BuildError {
     #[error("the structure has no free coordinate; add a member or free a support")]
     NothingFree,
     /// The sparse solver cannot analyse the structure.
-    #[error("analysis of the constraints failed: {0}")]
-    Sparse(#[from] SparseError),
+    #[error("analysis of the constraints failed at {culprit}: {source}")]
+    Sparse {
+        /// Name of the constraint or coordinate.
+        culprit: String,
+        /// The solver's reason.
+        source: SparseError,
+    },
 }
 
 /// Why a place is not one of a model.

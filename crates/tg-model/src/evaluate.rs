@@ -2,9 +2,9 @@
 
 use nalgebra::SVector;
 
-use crate::builder::axis_name;
 use crate::mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
 use crate::model::Model;
+use crate::parts::axis_name;
 
 impl<const D: usize> Mechanics for Model<D> {
     fn sizes(&self) -> Sizes {

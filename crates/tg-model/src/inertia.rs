@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::mechanics::Entry;
-use crate::model::PlacedMember;
+use crate::placed::PlacedMember;
 
 /// Sums the members' scalar mass matrices over shared nodes and expands them by the identity of the space.
 pub(crate) fn assemble<const D: usize>(members: &[PlacedMember<D>]) -> Vec<Entry> {

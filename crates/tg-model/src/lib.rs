@@ -38,6 +38,7 @@
 
 mod assemble;
 mod builder;
+mod cable_set;
 mod cables;
 mod constraints;
 mod drive;
@@ -50,12 +51,16 @@ mod layout;
 mod mechanics;
 mod model;
 mod nodes;
+mod parts;
+mod placed;
 mod projector;
 mod redundancy;
 mod report;
 mod signal;
+mod supports;
+mod tension;
 
-pub use builder::{AnchorId, CableId, Joining, LoadId, MemberId, ModelBuilder, Place, Redundancies};
+pub use builder::ModelBuilder;
 pub use cables::CableState;
 pub use error::{BuildError, PlaceError};
 pub use form::Form;
@@ -64,6 +69,7 @@ pub use law::{CableLaw, Tension, TensionLaw};
 pub use layout::Layout;
 pub use mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
 pub use model::{Energy, Model};
+pub use parts::{AnchorId, CableId, Joining, LoadId, MemberId, Place, Redundancies};
 pub use projector::{Moved, ProjectionError, Projector};
 pub use report::{BuildReport, Redundancy};
 pub use signal::{Signal, SignalError, SignalFn, Table};

@@ -1,17 +1,17 @@
 //! A structure after `build()`: immutable, shared by threads, everything precomputed.
 
 use nalgebra::SVector;
-use tg_coords::{CoordsError, Member, PoseFit, Twist};
+use tg_coords::{CoordsError, PoseFit, Twist};
 
-use crate::builder::{AnchorId, CableId, LoadId, MemberId, Place};
 use crate::cables::{CableState, Cables, cable_state};
 use crate::constraints::Constraints;
 use crate::drive::Drive;
 use crate::error::PlaceError;
 use crate::form::{Form, node};
 use crate::inertia::Inertia;
-use crate::law::CableLaw;
 use crate::mechanics::{Entry, HessianEntry, Mechanics};
+use crate::parts::{AnchorId, CableId, LoadId, MemberId, Place};
+use crate::placed::{Cable, PlacedMember};
 use crate::report::BuildReport;
 
 /// A checked structure in D-dimensional space; offers itself to the solvers as [`Mechanics`].
@@ -40,21 +40,6 @@ pub struct Model<const D: usize> {
     pub(crate) free: Vec<usize>,
     pub(crate) initial: Vec<f64>,
     pub(crate) report: BuildReport,
-}
-
-/// A member and the nodes that hold its natural coordinates.
-#[derive(Clone, Debug)]
-pub(crate) struct PlacedMember<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) member: Member<D>,
-    pub(crate) nodes: Vec<usize>,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Cable<const D: usize> {
-    pub(crate) name: String,
-    pub(crate) form: Form<D>,
-    pub(crate) law: CableLaw,
 }
 
 /// Energies \[J\].
@@ -251,11 +236,5 @@ impl<const D: usize> Model<D> {
     /// This model as the solvers see it.
     pub fn mechanics(&self) -> &dyn Mechanics {
         self
-    }
-}
-
-impl<const D: usize> PlacedMember<D> {
-    fn form(&self, weights: &[f64]) -> Form<D> {
-        Form::new(self.nodes.iter().copied().zip(weights.iter().copied()))
     }
 }

@@ -3,10 +3,14 @@
 use nalgebra::SVector;
 use tg_coords::Weights;
 
-use crate::builder::{AnchorId, MemberId, ModelBuilder, Place, coordinates};
 use crate::error::BuildError;
 use crate::form::Form;
-use crate::model::PlacedMember;
+use crate::parts::{AnchorId, MemberId, Parts, Place, coordinates};
+use crate::placed::PlacedMember;
+
+/// Points that are to meet may be apart by this part of the structure's size: rounding of hand-written coordinates
+/// passes, a misplaced member does not.
+pub(crate) const MEETING: f64 = 1e-9;
 
 /// Nodes before and after numbering. A *slot* is a node of one member or anchor before merging; a *node* is a
 /// D-vector of the coordinates.
@@ -29,10 +33,10 @@ pub(crate) struct Nodes<const D: usize> {
 }
 
 impl<const D: usize> Nodes<D> {
-    pub(crate) fn new(builder: &ModelBuilder<D>) -> Self {
+    pub(crate) fn new(parts: &Parts<D>) -> Self {
         let (mut first, mut positions, mut slot_names) = (Vec::new(), Vec::new(), Vec::new());
-        let mut points: Vec<SVector<f64, D>> = builder.anchors.iter().map(|a| a.position).collect();
-        for part in &builder.members {
+        let mut points: Vec<SVector<f64, D>> = parts.anchors.iter().map(|a| a.position).collect();
+        for part in &parts.members {
             first.push(positions.len());
             let kind = part.member.coord_type();
             for (i, x) in part.member.place(&part.pose).into_iter().enumerate() {
@@ -46,13 +50,13 @@ impl<const D: usize> Nodes<D> {
             }
         }
         let first_anchor = positions.len();
-        positions.extend(builder.anchors.iter().map(|a| a.position));
-        slot_names.extend(builder.anchors.iter().map(|a| format!("anchor \"{}\"", a.name)));
+        positions.extend(parts.anchors.iter().map(|a| a.position));
+        slot_names.extend(parts.anchors.iter().map(|a| format!("anchor \"{}\"", a.name)));
         let parent = (0..positions.len()).collect();
         Self {
             first,
             first_anchor,
-            anchors: builder.anchors.len(),
+            anchors: parts.anchors.len(),
             parent,
             positions,
             slot_names,
@@ -142,9 +146,9 @@ impl<const D: usize> Nodes<D> {
         self.slot_of.iter().flat_map(|&slot| self.positions[slot].iter().copied()).collect()
     }
 
-    pub(crate) fn place_members(&self, builder: &ModelBuilder<D>) -> Vec<PlacedMember<D>> {
-        let parts = builder.members.iter().zip(&self.first);
-        parts
+    pub(crate) fn place_members(&self, parts: &Parts<D>) -> Vec<PlacedMember<D>> {
+        let pairs = parts.members.iter().zip(&self.first);
+        pairs
             .map(|(part, &first)| PlacedMember {
                 name: part.name.clone(),
                 nodes: (first..first + part.member.coord_type().nodes())
@@ -164,38 +168,38 @@ impl<const D: usize> Nodes<D> {
     /// The form of a node, basic point or base vector.
     pub(crate) fn node_form(
         &self,
-        builder: &ModelBuilder<D>,
+        parts: &Parts<D>,
         kind: &'static str,
         name: &str,
         place: Place<D>,
     ) -> Result<Form<D>, BuildError> {
-        let slot = self.slot(builder, kind, name, place)?;
+        let slot = self.slot(parts, kind, name, place)?;
         Ok(Form::new(slot.map(|slot| (self.node_of[slot], 1.0))))
     }
 
     /// The form of a point; base vectors are refused.
     pub(crate) fn point(
         &self,
-        builder: &ModelBuilder<D>,
+        parts: &Parts<D>,
         kind: &'static str,
         name: &str,
         place: Place<D>,
     ) -> Result<Form<D>, BuildError> {
-        if let Some(slot) = self.slot(builder, kind, name, place)? {
-            if self.is_vector(builder, place) {
-                let place = self.describe(builder, place);
+        if let Some(slot) = self.slot(parts, kind, name, place)? {
+            if self.is_vector(parts, place) {
+                let place = self.describe(parts, place);
                 return Err(BuildError::NotAPoint { kind, name: name.into(), place });
             }
             return Ok(Form::new([(self.node_of[slot], 1.0)]));
         }
         match place {
-            Place::Material(MemberId(m), local) => builder.members[m]
+            Place::Material(MemberId(m), local) => parts.members[m]
                 .member
                 .point_weights(local.into())
                 .map(|weights| self.member_form(m, &weights))
                 .map_err(|source| coordinates(kind, name, source)),
             Place::MassCentre(MemberId(m)) => {
-                Ok(self.member_form(m, &builder.members[m].member.mass_centre_weights()))
+                Ok(self.member_form(m, &parts.members[m].member.mass_centre_weights()))
             }
             Place::Node(..) | Place::Anchor(_) => Ok(Form::new([])),
         }
@@ -204,36 +208,36 @@ impl<const D: usize> Nodes<D> {
     /// The slot of a basic point or anchor that a joint may share.
     pub(crate) fn shareable(
         &self,
-        builder: &ModelBuilder<D>,
+        parts: &Parts<D>,
         joint: &str,
         place: Place<D>,
     ) -> Result<usize, BuildError> {
-        match self.slot(builder, "joint", joint, place)? {
-            Some(slot) if !self.is_vector(builder, place) => Ok(slot),
-            _ => Err(BuildError::CannotShare { name: joint.into(), place: self.describe(builder, place) }),
+        match self.slot(parts, "joint", joint, place)? {
+            Some(slot) if !self.is_vector(parts, place) => Ok(slot),
+            _ => Err(BuildError::CannotShare { name: joint.into(), place: self.describe(parts, place) }),
         }
     }
 
-    fn is_vector(&self, builder: &ModelBuilder<D>, place: Place<D>) -> bool {
-        matches!(place, Place::Node(MemberId(m), i) if !builder.members[m].member.coord_type().is_point(i))
+    fn is_vector(&self, parts: &Parts<D>, place: Place<D>) -> bool {
+        matches!(place, Place::Node(MemberId(m), i) if !parts.members[m].member.coord_type().is_point(i))
     }
 
     /// The slot of a place, if it is one; checks that the place exists.
     fn slot(
         &self,
-        builder: &ModelBuilder<D>,
+        parts: &Parts<D>,
         kind: &'static str,
         name: &str,
         place: Place<D>,
     ) -> Result<Option<usize>, BuildError> {
         let dangling = |mend| {
-            Err(BuildError::Dangling { kind, name: name.into(), place: self.describe(builder, place), mend })
+            Err(BuildError::Dangling { kind, name: name.into(), place: self.describe(parts, place), mend })
         };
         match place {
             Place::Node(MemberId(m), _)
             | Place::Material(MemberId(m), _)
             | Place::MassCentre(MemberId(m))
-                if m >= builder.members.len() =>
+                if m >= parts.members.len() =>
             {
                 dangling("add that member to this builder first")
             }
@@ -241,7 +245,7 @@ impl<const D: usize> Nodes<D> {
                 dangling("add that anchor to this builder first")
             }
             Place::Node(MemberId(m), i) => {
-                if i < builder.members[m].member.coord_type().nodes() {
+                if i < parts.members[m].member.coord_type().nodes() {
                     Ok(Some(self.first[m] + i))
                 } else {
                     dangling("nodes count from 0 in the order of the coordinate type")
@@ -253,12 +257,12 @@ impl<const D: usize> Nodes<D> {
     }
 
     /// Length by which a joint's residual is scaled: the largest base vector of its members, else the structure.
-    pub(crate) fn scale(&self, builder: &ModelBuilder<D>, places: &[Place<D>]) -> f64 {
+    pub(crate) fn scale(&self, parts: &Parts<D>, places: &[Place<D>]) -> f64 {
         let of = |place: &Place<D>| match *place {
             Place::Node(MemberId(m), _)
             | Place::Material(MemberId(m), _)
             | Place::MassCentre(MemberId(m)) => {
-                let dots = builder.members[m].member.constraints().iter();
+                let dots = parts.members[m].member.constraints().iter();
                 dots.map(|dot| dot.scale().sqrt()).fold(0.0, f64::max)
             }
             Place::Anchor(_) => 0.0,
@@ -268,17 +272,17 @@ impl<const D: usize> Nodes<D> {
     }
 
     /// Words for a place.
-    pub(crate) fn describe(&self, builder: &ModelBuilder<D>, place: Place<D>) -> String {
-        let member = |m: usize| builder.members.get(m).map_or("?", |part| part.name.as_str());
+    pub(crate) fn describe(&self, parts: &Parts<D>, place: Place<D>) -> String {
+        let member = |m: usize| parts.members.get(m).map_or("?", |part| part.name.as_str());
         match place {
             Place::Node(MemberId(m), i) => {
-                let is_point = builder.members.get(m).is_none_or(|part| part.member.coord_type().is_point(i));
+                let is_point = parts.members.get(m).is_none_or(|part| part.member.coord_type().is_point(i));
                 node_name(member(m), i, is_point)
             }
             Place::Material(MemberId(m), local) => format!("point {local:?} of \"{}\"", member(m)),
             Place::MassCentre(MemberId(m)) => format!("mass centre of \"{}\"", member(m)),
             Place::Anchor(AnchorId(a)) => {
-                format!("anchor \"{}\"", builder.anchors.get(a).map_or("?", |part| part.name.as_str()))
+                format!("anchor \"{}\"", parts.anchors.get(a).map_or("?", |part| part.name.as_str()))
             }
         }
     }

@@ -6,7 +6,8 @@
 //! ```
 //! on the free components, A q̇ over all of them: among all velocities that satisfy the constraints' rate, the one
 //! nearest in kinetic energy. It is what an impulse of the constraints does. M may be singular as long as it is
-//! definite on the null space of A.
+//! definite on the null space of A, if tg-sparse has its `pivoting` feature, which the solver crates switch on; without
+//! it a coordinate without mass is an error that names it.
 
 use tg_sparse::{SaddleSystem, SparseError};
 use thiserror::Error;

@@ -1,9 +1,8 @@
 //! Redundant constraints: rows of A that are combinations of others in the initial configuration.
 
-use tg_sparse::dependent_rows;
+use tg_sparse::{Row, SparseError, dependent_rows};
 
-use crate::assemble::Named;
-use crate::constraints::Constraints;
+use crate::constraints::{Constraints, Named};
 use crate::error::BuildError;
 use crate::report::Redundancy;
 
@@ -63,7 +62,8 @@ pub(crate) fn find<const D: usize>(
         .collect();
     let mut values = vec![0.0; pattern.len()];
     flat.jacobian::<D>(q, &mut values);
-    let mut dependent = dependent_rows(free.len(), list.len(), &pattern, &values, TOLERANCE)?;
+    let mut dependent = dependent_rows(free.len(), list.len(), &pattern, &values, TOLERANCE)
+        .map_err(|source| BuildError::Sparse { culprit: culprit(list, &source), source })?;
     dependent.sort_by_key(|row| row.row);
     let named = dependent
         .iter()
@@ -93,4 +93,11 @@ pub(crate) fn find<const D: usize>(
     });
     let violations = violations.collect();
     Ok(Found { rows: dependent.iter().map(|row| row.row).collect(), named, violations })
+}
+
+fn culprit<const D: usize>(list: &[Named<D>], error: &SparseError) -> String {
+    match error.row() {
+        Some(Row::Multiplier(row)) if row < list.len() => list[row].name.clone(),
+        _ => "the structure as a whole".into(),
+    }
 }

@@ -218,3 +218,17 @@ fn structures_with_nothing_to_solve() {
     };
     refused!(build(held), BuildError::NothingFree, "free");
 }
+
+#[test]
+fn numbers_that_overflow_in_the_constraints() {
+    refused!(
+        build::<2>(|b| {
+            b.bar("sound", 1.0, [0.0, 0.0], [0.0, 1.0])?;
+            let bar = b.bar("torn", 1.0, [0.0, 0.0], [1.0, 0.0])?;
+            b.support("pull", bar.node(1), 0, 1.5e308)
+        }),
+        BuildError::Sparse { .. },
+        "rigidity u·u of \"torn\"",
+        "not finite"
+    );
+}
