@@ -162,8 +162,11 @@ fn saddle_rows(leading: &Rows, jacobian: &Rows, position: &[u32]) -> Rows {
     distinct_rows(position.len(), pairs)
 }
 
+/// [`SaddlePattern::assembly`] and where the list of each front starts in it.
+type Assembly = (Vec<(u32, u32)>, Vec<usize>);
+
 /// For each front, which slots of the compressed rows go where in its panel.
-fn assemble_fronts(symbolic: &Symbolic, rows: &Rows) -> Result<(Vec<(u32, u32)>, Vec<usize>), SparseError> {
+fn assemble_fronts(symbolic: &Symbolic, rows: &Rows) -> Result<Assembly, SparseError> {
     let mut assembly = Vec::with_capacity(rows.column().len());
     let mut start = vec![0];
     let mut place = vec![0_usize; rows.len()];

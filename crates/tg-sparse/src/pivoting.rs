@@ -6,7 +6,7 @@
 //! `d = K⁻¹ (r − K z)`. On a singular matrix z runs along the null vector and d is as large as z.
 
 use crate::pattern::SaddlePattern;
-use crate::refinement::Vectors;
+use crate::refinement::{Vectors, stands_probe};
 use crate::slot_map::SlotMap;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
@@ -79,7 +79,6 @@ impl PivotingLu {
         pattern: &SaddlePattern,
         values: &[f64],
         vectors: &mut Vectors,
-        probe_limit: f64,
         suspect: usize,
     ) -> Result<(), usize> {
         for (value, &slot) in self.values.iter_mut().zip(&self.slot) {
@@ -121,7 +120,7 @@ impl PivotingLu {
         };
         let (z, worst) = largest(solution);
         let (d, _) = largest(correction);
-        if d <= probe_limit * z && z.is_finite() {
+        if stands_probe(z, d) {
             return Ok(());
         }
         let takes_part =

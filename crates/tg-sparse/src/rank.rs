@@ -14,15 +14,12 @@
 
 use crate::error::{EntryList, Row, SparseError};
 use crate::pattern::SaddlePattern;
-use crate::static_lu::{PivotRule, StaticLu};
+use crate::span::{Outside, Span};
 
 /// Rows with a smaller sine are taken out of the elimination and measured by a solve. The pivot is the sine's square, so
 /// its rounding error (some ε times the number of rows in the longest circuit of redundant constraints, 1e-12 at ten
 /// thousand) hides sines up to 1e-6.
 const SINE_MEASURED: f64 = 1e-5;
-
-/// Steps of refinement of each measuring solve.
-const REFINEMENTS: usize = 2;
 
 /// Coefficients below this, with rows of length one, are rounding errors.
 const COEFFICIENT_FLOOR: f64 = 1e-9;
@@ -78,21 +75,18 @@ pub fn dependent_rows(
         matrix[upper as usize] = -value;
         matrix[lower as usize] = value;
     }
-    let mut lu = StaticLu::new(&pattern.symbolic);
-    let measured = tolerance.max(SINE_MEASURED).min(0.5);
-    if let Err(trouble) = lu.factor(&pattern, &matrix, PivotRule::Drop(measured * measured)) {
-        return Err(SparseError::Singular { row: rows.original(pattern.row_at(trouble.position)) });
-    }
-
-    let mut measure = Measure::new(&pattern, &matrix, lu);
+    let measured = if tolerance > SINE_MEASURED { tolerance.min(0.5) } else { SINE_MEASURED };
+    let mut span = Span::new(&pattern, &matrix);
+    span.factor(measured * measured).map_err(|row| SparseError::Singular { row: rows.original(row) })?;
     let mut kept: Vec<Outside> = Vec::new();
-    for position in measure.dropped() {
-        let mut outside = measure.outside(position);
+    for position in span.dropped() {
+        let mut outside = span.outside(position);
         for other in &kept {
             outside.remove(other);
         }
         let sine = outside.part.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
         if sine > tolerance {
+            eprintln!("kept {} {sine:e}", outside.row);
             kept.push(outside);
             continue;
         }
@@ -179,149 +173,5 @@ impl NormalRows {
             Row::Multiplier(j) => Row::Multiplier(self.index[j]),
             Row::Unknown(i) => Row::Unknown(i),
         }
-    }
-}
-
-/// A row that was taken out: its part outside of the span of the others, and its combination of them.
-struct Outside {
-    /// Row in [`NormalRows`].
-    row: usize,
-    /// (unknown's position, component), ascending.
-    part: Vec<(u32, f64)>,
-    /// (row in [`NormalRows`], coefficient), ascending.
-    combination: Vec<(usize, f64)>,
-}
-
-impl Outside {
-    /// Makes the part orthogonal to that of another row, which counts as independent.
-    fn remove(&mut self, other: &Self) {
-        let square: f64 = other.part.iter().map(|(_, x)| x * x).sum();
-        let mut product = 0.0;
-        merged(&self.part, &other.part, |_, a, b| product += a * b);
-        let factor = product / square;
-        if factor == 0.0 {
-            return;
-        }
-        let mut part = Vec::with_capacity(self.part.len() + other.part.len());
-        merged(&self.part, &other.part, |key, a, b| part.push((key, a - factor * b)));
-        let mut combination = Vec::with_capacity(self.combination.len() + other.combination.len());
-        merged(&self.combination, &other.combination, |key, a, b| combination.push((key, a - factor * b)));
-        let at = combination.partition_point(|&(key, _)| key < other.row);
-        combination.insert(at, (other.row, factor));
-        self.part = part;
-        self.combination = combination;
-    }
-}
-
-/// Visits the union of two ascending sparse vectors.
-fn merged<K: Copy + Ord>(a: &[(K, f64)], b: &[(K, f64)], mut visit: impl FnMut(K, f64, f64)) {
-    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-    loop {
-        let key = match (a.peek(), b.peek()) {
-            (Some(&&(p, _)), Some(&&(q, _))) => p.min(q),
-            (Some(&&(p, _)), None) => p,
-            (None, Some(&&(q, _))) => q,
-            (None, None) => return,
-        };
-        let take = |list: &mut std::iter::Peekable<std::slice::Iter<'_, (K, f64)>>| {
-            list.next_if(|&&(k, _)| k == key).map_or(0.0, |&(_, x)| x)
-        };
-        visit(key, take(&mut a), take(&mut b));
-    }
-}
-
-/// Solves with the rows kept, over one subtree of fronts at a time.
-struct Measure<'a> {
-    pattern: &'a SaddlePattern,
-    matrix: &'a [f64],
-    lu: StaticLu,
-    is_dropped: Vec<bool>,
-    solution: Vec<f64>,
-    residual: Vec<f64>,
-    work: Vec<f64>,
-}
-
-impl<'a> Measure<'a> {
-    fn new(pattern: &'a SaddlePattern, matrix: &'a [f64], lu: StaticLu) -> Self {
-        let size = pattern.size();
-        let mut is_dropped = vec![false; size];
-        lu.dropped.iter().for_each(|&p| is_dropped[p as usize] = true);
-        let zeros = vec![0.0; size];
-        Self {
-            pattern,
-            matrix,
-            lu,
-            is_dropped,
-            solution: zeros.clone(),
-            residual: zeros.clone(),
-            work: zeros,
-        }
-    }
-
-    /// Positions taken out, by ascending row of `A`.
-    fn dropped(&self) -> Vec<usize> {
-        let order = &self.pattern.symbolic.order;
-        let mut dropped: Vec<usize> = self.lu.dropped.iter().map(|&p| p as usize).collect();
-        dropped.sort_unstable_by_key(|&p| order[p]);
-        dropped
-    }
-
-    fn outside(&mut self, position: usize) -> Outside {
-        let symbolic = &self.pattern.symbolic;
-        let rows = &self.pattern.slots.rows;
-        let last = symbolic.fronts.partition_point(|front| front.first <= position) - 1;
-        let fronts = symbolic.fronts[last].subtree..last + 1;
-        let start = symbolic.fronts[fronts.start].first;
-        let end = symbolic.fronts[last].first + symbolic.fronts[last].width;
-        let beyond = &symbolic.rest[symbolic.fronts[last].rest.clone()];
-
-        let own = rows.start()[position]..rows.start()[position + 1];
-        let own: Vec<(u32, f64)> =
-            rows.column()[own.clone()].iter().copied().zip(self.matrix[own].iter().copied()).collect();
-        for &(column, value) in &own {
-            self.residual[column as usize] = value;
-        }
-        for step in 0..=REFINEMENTS {
-            self.work[start..end].copy_from_slice(&self.residual[start..end]);
-            beyond.iter().for_each(|&i| self.work[i as usize] = 0.0);
-            self.lu.forward(symbolic, fronts.clone(), &mut self.work);
-            beyond.iter().for_each(|&i| self.work[i as usize] = 0.0);
-            self.lu.backward(symbolic, fronts.clone(), &mut self.work);
-            for (x, d) in self.solution[start..end].iter_mut().zip(&self.work[start..end]) {
-                *x += d;
-            }
-            if step == REFINEMENTS {
-                break;
-            }
-            self.residual[start..end].fill(0.0);
-            for &(column, value) in &own {
-                self.residual[column as usize] = value;
-            }
-            for row in start..end {
-                let bounds = rows.start()[row]..rows.start()[row + 1];
-                let product: f64 = rows.column()[bounds.clone()]
-                    .iter()
-                    .zip(&self.matrix[bounds])
-                    .map(|(&c, v)| v * self.solution[c as usize])
-                    .sum();
-                self.residual[row] = if self.is_dropped[row] { 0.0 } else { self.residual[row] - product };
-            }
-        }
-        let mut part = Vec::new();
-        let mut combination = Vec::new();
-        let n = self.pattern.n;
-        for at in start..end {
-            let x = std::mem::take(&mut self.solution[at]);
-            self.residual[at] = 0.0;
-            let variable = symbolic.order[at] as usize;
-            if x == 0.0 {
-            } else if variable < n {
-                part.push((at as u32, x));
-            } else {
-                combination.push((variable - n, -x));
-            }
-        }
-        combination.sort_unstable_by_key(|&(row, _)| row);
-        Outside { row: symbolic.order[position] as usize - n, part, combination }
     }
 }

@@ -17,7 +17,7 @@ const GOOD: f64 = 1e-13;
 
 /// An ω that stays above this after refinement is a failure of the factors: refinement with factors good to a few
 /// digits gets below it.
-pub(crate) const BAD: f64 = 1e-10;
+const BAD: f64 = 1e-10;
 
 /// Most steps of one solve. Factors good for one digit reach [`BAD`] in ten steps, but a refactorisation with pivoting
 /// is cheaper by then.
@@ -25,6 +25,15 @@ const MOST_STEPS: u32 = 5;
 
 /// Share of the block's largest `d_i` that `d_i` is raised to: √ε.
 const FLOOR: f64 = 1.5e-8;
+
+/// A second solve that changes a component by more than this share says that the factors do not determine it. For a
+/// singular matrix the share is one, for factors good to d digits 10^−d.
+const PROBE_LIMIT: f64 = 0.1;
+
+/// True when a correction leaves the component that was solved for in place. NaN and infinity do not.
+pub(crate) fn stands_probe(solution: f64, correction: f64) -> bool {
+    solution.is_finite() && correction.abs() <= PROBE_LIMIT * solution.abs()
+}
 
 /// What refinement reached.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +43,13 @@ pub(crate) struct Outcome {
     /// Position of the row with the largest share of it.
     pub(crate) worst: usize,
     pub(crate) steps: u32,
+}
+
+impl Outcome {
+    /// True when the factors were good enough. A NaN is not.
+    pub(crate) fn is_good(&self) -> bool {
+        self.error <= BAD
+    }
 }
 
 /// Vectors in elimination order.

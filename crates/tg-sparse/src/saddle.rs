@@ -12,12 +12,8 @@ use crate::error::SparseError;
 use crate::pattern::SaddlePattern;
 #[cfg(feature = "pivoting")]
 use crate::pivoting::PivotingLu;
-use crate::refinement::{BAD, Outcome, Vectors};
+use crate::refinement::{Outcome, Vectors, stands_probe};
 use crate::static_lu::{PivotRule, PivotTrouble, StaticLu};
-
-/// A second solve that changes a component by more than this share says that the factors do not determine it. For a
-/// singular matrix the share is one, for factors good to d digits 10^−d.
-const PROBE_LIMIT: f64 = 0.1;
 
 /// What a solve did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -207,28 +203,19 @@ impl SaddleSystem {
         let mut steps = 0;
         let mut outcome = match self.factors {
             Factors::None => return Err(SparseError::NotFactored),
-            factors => {
-                for (b, &variable) in self.vectors.right.iter_mut().zip(&self.pattern.symbolic.order) {
-                    *b = rhs[variable as usize];
-                }
-                self.refine(factors)
-            }
+            factors => self.refine(factors, rhs),
         };
-        if !(outcome.error <= BAD) {
+        if !outcome.is_good() {
             if let Some(position) = self.vectors.right.iter().position(|b| !b.is_finite()) {
                 return Err(SparseError::NonFiniteVector { row: self.pattern.row_at(position) });
             }
             let row = self.pattern.row_at(outcome.worst);
             if self.factors == Factors::Static {
                 steps = outcome.steps;
-                // The fallback needs the vectors for its probe.
                 self.fall_back(outcome.worst, SparseError::Residual { row, residual: outcome.error })?;
-                for (b, &variable) in self.vectors.right.iter_mut().zip(&self.pattern.symbolic.order) {
-                    *b = rhs[variable as usize];
-                }
-                outcome = self.refine(Factors::Pivoting);
+                outcome = self.refine(Factors::Pivoting, rhs);
             }
-            if !(outcome.error <= BAD) {
+            if !outcome.is_good() {
                 return Err(SparseError::Singular { row: self.pattern.row_at(outcome.worst) });
             }
         }
@@ -242,9 +229,12 @@ impl SaddleSystem {
         Ok(SolveReport { residual: outcome.error, refinements, fell_back })
     }
 
-    /// Solves for the present right-hand side.
-    fn refine(&mut self, factors: Factors) -> Outcome {
+    /// Solves and refines; the solution stays in `vectors`.
+    fn refine(&mut self, factors: Factors, rhs: &[f64]) -> Outcome {
         let Self { pattern, values, lu, vectors, .. } = self;
+        for (b, &variable) in vectors.right.iter_mut().zip(&pattern.symbolic.order) {
+            *b = rhs[variable as usize];
+        }
         #[cfg(feature = "pivoting")]
         if let (Factors::Pivoting, Some(pivoting)) = (factors, &mut self.pivoting) {
             return vectors.refine(pattern, values, |x| pivoting.solve(x));
@@ -266,10 +256,8 @@ impl SaddleSystem {
         }
         let (solution, correction) =
             vectors.solve_and_correct(pattern, values, |x| lu.solve(&pattern.symbolic, x));
-        let position = lu.doubtful.iter().map(|&position| position as usize).find(|&position| {
-            let (x, d) = (solution[position], correction[position]);
-            !(d.abs() <= PROBE_LIMIT * x.abs() && x.is_finite())
-        })?;
+        let mut doubtful = lu.doubtful.iter().map(|&position| position as usize);
+        let position = doubtful.find(|&position| !stands_probe(solution[position], correction[position]))?;
         Some(lu.pivot(position))
     }
 
@@ -287,7 +275,7 @@ impl SaddleSystem {
             Some(pivoting) => pivoting,
             none => none.insert(Box::new(PivotingLu::new(&pattern.slots).ok_or_else(|| singular(position))?)),
         };
-        match pivoting.factor(pattern, values, vectors, PROBE_LIMIT, position) {
+        match pivoting.factor(pattern, values, vectors, position) {
             Ok(()) => {
                 self.factors = Factors::Pivoting;
                 Ok(())

@@ -10,6 +10,8 @@
 //! factor of two, the squared sine of the angle (in the metric of `H⁻¹`) between its row of `A` and the rows before it.
 //! Rounding leaves about `ε s_i` of a pivot that vanishes.
 
+use crate::front::{add_child, eliminate, packed_len, subtract_products};
+use crate::kernels::{TILE, add_multiple, dot};
 use crate::pattern::SaddlePattern;
 use crate::symbolic::Symbolic;
 
@@ -22,12 +24,16 @@ pub(crate) const PIVOT_DOUBTFUL: f64 = 1e-8;
 
 /// What to do with small pivots.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum PivotRule {
+pub(crate) enum PivotRule<'a> {
     /// Stop at a lost pivot, note doubtful ones.
     Check,
-    /// Take a row and column out of the system when its pivot is below this value; its component of every solution is
-    /// then zero.
-    Drop(f64),
+    /// Take a row and column out of the system; its component of every solution is then zero.
+    Drop {
+        /// When its pivot is not above this, or
+        below: f64,
+        /// when its position is marked.
+        also: &'a [bool],
+    },
 }
 
 /// A pivot that vanishes or is not finite.
@@ -49,6 +55,8 @@ pub(crate) struct StaticLu {
     scale: Vec<f64>,
     /// Update matrices: odd depths, even depths.
     stacks: [Vec<f64>; 2],
+    /// Rows of a large front packed for a product.
+    packed: Vec<[f64; TILE]>,
     /// One front's part of a vector.
     local: Vec<f64>,
     /// Positions of doubtful pivots.
@@ -65,6 +73,7 @@ impl StaticLu {
             inverse: vec![0.0; size],
             scale: vec![0.0; size],
             stacks: symbolic.stack_len.map(|length| vec![0.0; length]),
+            packed: vec![[0.0; TILE]; packed_len(symbolic.longest)],
             local: vec![0.0; symbolic.longest],
             doubtful: Vec::with_capacity(size),
             dropped: Vec::with_capacity(size),
@@ -76,7 +85,7 @@ impl StaticLu {
         &mut self,
         pattern: &SaddlePattern,
         values: &[f64],
-        rule: PivotRule,
+        rule: PivotRule<'_>,
     ) -> Result<(), PivotTrouble> {
         let symbolic = &pattern.symbolic;
         self.scale.fill(0.0);
@@ -106,30 +115,26 @@ impl StaticLu {
 
             let inverse = &mut self.inverse[front.first..front.first + w];
             let (doubtful, dropped) = (&mut self.doubtful, &mut self.dropped);
-            eliminate(panel, w, r, inverse, scale, |row, pivot, scale| {
+            eliminate(panel, w, r, inverse, scale, &mut self.packed, |row, pivot, scale| {
                 let position = front.first + row;
+                let trouble = PivotTrouble { position, pivot, scale };
                 match rule {
-                    PivotRule::Check => {
-                        if pivot.abs() > PIVOT_DOUBTFUL * scale && pivot.is_finite() {
-                            return Ok(1.0 / pivot);
-                        }
-                        if pivot.abs() > PIVOT_LOST * scale && pivot.is_finite() {
-                            doubtful.push(position as u32);
-                            return Ok(1.0 / pivot);
-                        }
-                        Err(PivotTrouble { position, pivot, scale })
+                    _ if !pivot.is_finite() => Err(trouble),
+                    PivotRule::Check if pivot.abs() > PIVOT_DOUBTFUL * scale => Ok(1.0 / pivot),
+                    PivotRule::Check if pivot.abs() > PIVOT_LOST * scale => {
+                        doubtful.push(position as u32);
+                        Ok(1.0 / pivot)
                     }
-                    PivotRule::Drop(below) => {
-                        if pivot.abs() > below {
-                            return Ok(1.0 / pivot);
-                        }
+                    PivotRule::Check => Err(trouble),
+                    PivotRule::Drop { below, also } if pivot > below && !also[position] => Ok(1.0 / pivot),
+                    PivotRule::Drop { .. } => {
                         dropped.push(position as u32);
                         Ok(0.0)
                     }
                 }
             })?;
             if r > 0 {
-                subtract_products(update, panel, w, r);
+                subtract_products(update, panel, w, r, &mut self.packed);
                 let sums = &mut self.local[..r];
                 sums.fill(0.0);
                 for row in panel.chunks_exact(stride) {
@@ -154,12 +159,18 @@ impl StaticLu {
     /// `x ← U⁻¹ L⁻¹ x` in elimination order.
     pub(crate) fn solve(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
         self.forward(symbolic, 0..symbolic.fronts.len(), x);
-        self.backward(symbolic, 0..symbolic.fronts.len(), x);
+        self.backward(symbolic, (0..symbolic.fronts.len()).rev(), x);
     }
 
-    /// `L⁻¹` over a run of fronts; also changes the rest of these.
-    pub(crate) fn forward(&mut self, symbolic: &Symbolic, range: std::ops::Range<usize>, x: &mut [f64]) {
-        for front in &symbolic.fronts[range] {
+    /// `L⁻¹` over ascending fronts; also changes the rest of these.
+    pub(crate) fn forward(
+        &mut self,
+        symbolic: &Symbolic,
+        fronts: impl Iterator<Item = usize>,
+        x: &mut [f64],
+    ) {
+        for front in fronts {
+            let front = &symbolic.fronts[front];
             let (w, r, stride) = (front.width, front.rest_len(), front.stride());
             let panel = &self.panels[front.panel..front.panel + w * stride];
             let own = &mut x[front.first..front.first + w];
@@ -180,9 +191,15 @@ impl StaticLu {
         }
     }
 
-    /// `U⁻¹` over a run of fronts, last first.
-    pub(crate) fn backward(&mut self, symbolic: &Symbolic, range: std::ops::Range<usize>, x: &mut [f64]) {
-        for front in symbolic.fronts[range].iter().rev() {
+    /// `U⁻¹` over descending fronts.
+    pub(crate) fn backward(
+        &mut self,
+        symbolic: &Symbolic,
+        fronts: impl Iterator<Item = usize>,
+        x: &mut [f64],
+    ) {
+        for front in fronts {
+            let front = &symbolic.fronts[front];
             let (w, r, stride) = (front.width, front.rest_len(), front.stride());
             let panel = &self.panels[front.panel..front.panel + w * stride];
             let local = &mut self.local[..w + r];
@@ -198,115 +215,4 @@ impl StaticLu {
             x[front.first..front.first + w].copy_from_slice(&local[..w]);
         }
     }
-}
-
-/// Adds a child's update matrix to the panel and the update matrix of its parent.
-fn add_child(panel: &mut [f64], update: &mut [f64], w: usize, r: usize, child: &[f64], relative: &[u32]) {
-    let count = relative.len();
-    let stride = w + 2 * r;
-    let split = relative.partition_point(|&p| (p as usize) < w);
-    let (in_panel, in_rest) = relative.split_at(split);
-    let (top, bottom) = child.split_at(split * count);
-    for (row, &p) in top.chunks_exact(count).zip(in_panel) {
-        let target = &mut panel[p as usize * stride..][..w + r];
-        for (&value, &q) in row.iter().zip(relative) {
-            target[q as usize] += value;
-        }
-    }
-    for (row, &p) in bottom.chunks_exact(count).zip(in_rest) {
-        let (left, right) = row.split_at(split);
-        for (&value, &q) in left.iter().zip(in_panel) {
-            panel[q as usize * stride + r + p as usize] += value;
-        }
-        let target = &mut update[(p as usize - w) * r..][..r];
-        for (&value, &q) in right.iter().zip(in_rest) {
-            target[q as usize - w] += value;
-        }
-    }
-}
-
-/// Eliminates the panel's w rows. `invert` gives the reciprocal of a pivot from (row, pivot, scale).
-fn eliminate(
-    panel: &mut [f64],
-    w: usize,
-    r: usize,
-    inverse: &mut [f64],
-    scale: &mut [f64],
-    mut invert: impl FnMut(usize, f64, f64) -> Result<f64, PivotTrouble>,
-) -> Result<(), PivotTrouble> {
-    let stride = w + 2 * r;
-    for k in 0..w {
-        let (above, below) = panel.split_at_mut((k + 1) * stride);
-        let (upper, lower) = above[k * stride..].split_at_mut(w + r);
-        let reciprocal = invert(k, upper[k], scale[k])?;
-        inverse[k] = reciprocal;
-        for value in &mut *lower {
-            *value *= reciprocal;
-        }
-        let upper = &upper[k + 1..];
-        for ((row, &u), scale) in below.chunks_exact_mut(stride).zip(upper).zip(&mut scale[k + 1..]) {
-            let l = row[k] * reciprocal;
-            row[k] = l;
-            let (row_upper, row_lower) = row[k + 1..].split_at_mut(upper.len());
-            // Structural zeros are frequent inside of a front: constraints touch few unknowns.
-            if l != 0.0 {
-                subtract_multiple(row_upper, upper, l);
-                *scale += (l * u).abs();
-            }
-            if u != 0.0 {
-                subtract_multiple(row_lower, lower, u);
-            }
-        }
-    }
-    Ok(())
-}
-
-/// `update ← update − L U` on the rest.
-fn subtract_products(update: &mut [f64], panel: &[f64], w: usize, r: usize) {
-    let stride = w + 2 * r;
-    let mut four = panel.chunks_exact(4 * stride);
-    for rows in &mut four {
-        let (u0, l0) = rows[w..stride].split_at(r);
-        let (u1, l1) = rows[stride + w..2 * stride].split_at(r);
-        let (u2, l2) = rows[2 * stride + w..3 * stride].split_at(r);
-        let (u3, l3) = rows[3 * stride + w..].split_at(r);
-        for (i, target) in update.chunks_exact_mut(r).enumerate() {
-            let (l0, l1, l2, l3) = (l0[i], l1[i], l2[i], l3[i]);
-            for ((((t, u0), u1), u2), u3) in target.iter_mut().zip(u0).zip(u1).zip(u2).zip(u3) {
-                *t -= (l0 * u0 + l1 * u1) + (l2 * u2 + l3 * u3);
-            }
-        }
-    }
-    for row in four.remainder().chunks_exact(stride) {
-        let (u, l) = row[w..].split_at(r);
-        for (target, &l) in update.chunks_exact_mut(r).zip(l) {
-            subtract_multiple(target, u, l);
-        }
-    }
-}
-
-fn subtract_multiple(target: &mut [f64], source: &[f64], factor: f64) {
-    for (t, s) in target.iter_mut().zip(source) {
-        *t -= factor * s;
-    }
-}
-
-fn add_multiple(target: &mut [f64], source: &[f64], factor: f64) {
-    for (t, s) in target.iter_mut().zip(source) {
-        *t += factor * s;
-    }
-}
-
-/// Four partial sums: the additions do not wait for each other.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a4, a_end) = a.as_chunks::<4>();
-    let (b4, b_end) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for (a, b) in a4.iter().zip(b4) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    let end: f64 = a_end.iter().zip(b_end).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + end
 }

@@ -26,8 +26,6 @@ pub(crate) struct Front {
     pub(crate) update: usize,
     /// Range in [`Symbolic::children`].
     pub(crate) children: Range<usize>,
-    /// First front of its subtree; the subtree is `subtree..=self`.
-    pub(crate) subtree: usize,
 }
 
 impl Front {
@@ -91,6 +89,11 @@ impl Symbolic {
         symbolic
     }
 
+    /// The front that eliminates a position.
+    pub(crate) fn front_of(&self, position: usize) -> usize {
+        self.fronts.partition_point(|front| front.first <= position) - 1
+    }
+
     /// Rests, children and relative positions. `old`: position → row of `matrix`.
     fn find_rests(&mut self, matrix: &Rows, old: &[u32]) {
         let n = old.len();
@@ -141,7 +144,6 @@ impl Symbolic {
             let start = self.children.len();
             self.children.extend_from_slice(&children[s]);
             self.fronts[s].children = start..self.children.len();
-            self.fronts[s].subtree = children[s].first().map_or(s, |&c| self.fronts[c as usize].subtree);
             if let Some(&next) = found.first() {
                 children[front_of[next as usize] as usize].push(s as u32);
             }
@@ -274,7 +276,6 @@ fn number_columns(nodes: &[Node]) -> (Vec<Front>, Vec<u32>) {
             even: true,
             update: 0,
             children: 0..0,
-            subtree: 0,
         });
         positions.extend_from_slice(columns);
     }

@@ -1,6 +1,8 @@
 //! Test systems and dense algebra that shares nothing with the crate.
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used, clippy::expect_used)]
 
+pub mod lattice;
+
 use tg_sparse::{SaddlePattern, SaddleSystem};
 
 pub type Entry = Option<(usize, usize)>;
