@@ -28,7 +28,7 @@ fn stepping<const D: usize>(c: &mut Criterion, name: &str, size: &str, model: &M
 }
 
 fn all(c: &mut Criterion) {
-    stepping(c, "double pendulum", "", &example1().model);
+    stepping(c, "double pendulum", "example 1", &example1().model);
     stepping(c, "tower", "UN", &tower(tower::UN).model);
     for count in [2, 8, 32] {
         let setup = prism::Setup { count, damping: 1.0, ..prism::STANDING };

@@ -25,7 +25,7 @@
 //! |---|---|---|
 //! | (38) | the equations of motion | [`tg_model::Mechanics`] |
 //! | (49), (53), (54), (55), Algorithm 1 | the modified symplectic scheme | [`Symplectic`] |
-//! | [38] | generalised-α for constrained systems (Arnold, Brüls) | [`GeneralizedAlpha`] |
+//! | \[38\] | generalised-α for constrained systems (Arnold, Brüls) | [`GeneralizedAlpha`] |
 //!
 //! A [`State`] is plain data and a checkpoint: serialised and read back exactly, a run continues bit for bit.
 
