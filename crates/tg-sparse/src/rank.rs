@@ -86,7 +86,6 @@ pub fn dependent_rows(
         }
         let sine = outside.part.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
         if sine > tolerance {
-            eprintln!("kept {} {sine:e}", outside.row);
             kept.push(outside);
             continue;
         }
