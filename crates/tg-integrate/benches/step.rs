@@ -8,7 +8,9 @@ use support::{alpha, example1, prism, start, symplectic};
 use tg_integrate::Stepper;
 use tg_model::Model;
 
-#[path = "../tests/support/mod.rs"]
+#[path = "../tests/it/support/mod.rs"]
+// The tests use the rest of it.
+#[allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 mod support;
 
 const STEP: f64 = 1e-3;

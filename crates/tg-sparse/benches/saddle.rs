@@ -1,7 +1,9 @@
 //! Refactorisation and solve of chains of RUVW bodies: 18 equations a body, neighbours coupled by three cables.
 #![allow(missing_docs)]
 
-#[path = "../tests/support/mod.rs"]
+#[path = "../tests/it/support/mod.rs"]
+// The tests use the rest of it.
+#[allow(dead_code, clippy::unwrap_used, clippy::expect_used)]
 mod support;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};

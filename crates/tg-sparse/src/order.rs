@@ -94,6 +94,8 @@ fn order_unknowns(leading: &Rows, jacobian: &Rows) -> Result<Vec<u32>, SparseErr
     for i in 0..n {
         pairs.extend(leading.row(i).iter().filter(|&&c| c as usize > i).map(|&c| (i as u32, c)));
     }
+    // The diagonal does not matter to the order, but amd's own debug assertion counts on it.
+    pairs.extend((0..n as u32).map(|i| (i, i)));
     pairs.sort_unstable();
     pairs.dedup();
     // The upper triangle is enough: the ordering works on the sum of its argument and the transpose.

@@ -9,6 +9,10 @@
 //! the smallest relative change of the entries of `K` and b that makes x exact. It does not depend on the units of
 //! unknowns and multipliers. Where `d_i` is below a share of the largest of its block (rows of `H`, rows of `A`), that
 //! share is used instead: x is all rounding error there.
+//!
+//! Where multipliers balance f alone (a structure at rest, or one that cannot move), the whole of x is rounding error of
+//! size `ε e`, `e_j = d_j / |h_jj|`, which no refinement lowers, and so is every row of `A x = g`. Before factors are
+//! blamed, rows of `A` are therefore held against a share of `Σ_j |a_ij| e_j` if that is larger than `d_i`.
 
 use crate::pattern::SaddlePattern;
 
@@ -34,6 +38,10 @@ const PROBE_LIMIT: f64 = 0.1;
 pub(crate) fn stands_probe(solution: f64, correction: f64) -> bool {
     solution.is_finite() && correction.abs() <= PROBE_LIMIT * solution.abs()
 }
+
+/// Share of `|A| e` that `d_i` of a row of `A` is raised to in the last resort: rounding errors of some ε then count as
+/// [`GOOD`].
+const REACHABLE: f64 = 1e-2;
 
 /// What refinement reached.
 #[derive(Clone, Copy, Debug)]
@@ -65,12 +73,21 @@ pub(crate) struct Vectors {
     magnitude: Vec<f64>,
     /// x with the correction, until it proves better.
     candidate: Vec<f64>,
+    /// e on the unknowns, zero on the multipliers.
+    reachable: Vec<f64>,
 }
 
 impl Vectors {
     pub(crate) fn new(size: usize) -> Self {
         let zeros = || vec![0.0; size];
-        Self { right: zeros(), solution: zeros(), residual: zeros(), magnitude: zeros(), candidate: zeros() }
+        Self {
+            right: zeros(),
+            solution: zeros(),
+            residual: zeros(),
+            magnitude: zeros(),
+            candidate: zeros(),
+            reachable: zeros(),
+        }
     }
 
     /// Solves `K x = b` by `solve` (in place) with as many steps of refinement as lower the error.
@@ -102,19 +119,46 @@ impl Vectors {
                 break;
             }
         }
+        if error > BAD && error.is_finite() {
+            (error, worst) = self.measure_reachable(pattern, values);
+        }
         Outcome { error, worst, steps }
     }
 
     /// Residual of the present solution, its ω and the row with the largest share.
     fn measure(&mut self, pattern: &SaddlePattern, values: &[f64]) -> (f64, usize) {
-        let n = pattern.n;
-        let mut largest = [0.0_f64; 2];
-        let order = &pattern.symbolic.order;
-        let rows = self.residual.iter_mut().zip(&mut self.magnitude).zip(&self.right).zip(order);
+        let rows = self.residual.iter_mut().zip(&mut self.magnitude).zip(&self.right);
         let products = pattern.slots.products(values, &self.solution);
-        for ((((residual, magnitude), b), &variable), (product, absolute)) in rows.zip(products) {
+        for (((residual, magnitude), b), (product, absolute)) in rows.zip(products) {
             *residual = b - product;
             *magnitude = absolute + b.abs();
+        }
+        self.worst(pattern)
+    }
+
+    /// As `measure`, with rows of `A` held against what rounding lets them reach.
+    fn measure_reachable(&mut self, pattern: &SaddlePattern, values: &[f64]) -> (f64, usize) {
+        self.measure(pattern, values);
+        let order = &pattern.symbolic.order;
+        let is_unknown = |position: usize| (order[position] as usize) < pattern.n;
+        for (position, e) in self.reachable.iter_mut().enumerate() {
+            let size = self.magnitude[position] / pattern.slots.diagonal(values, position).abs();
+            *e = if is_unknown(position) && size.is_finite() { size } else { 0.0 };
+        }
+        let products = pattern.slots.products(values, &self.reachable);
+        for (position, (_, absolute)) in products.enumerate() {
+            if !is_unknown(position) {
+                self.magnitude[position] = self.magnitude[position].max(REACHABLE * absolute);
+            }
+        }
+        self.worst(pattern)
+    }
+
+    /// The largest share of `residual` in `magnitude`, raised to the floor of its block, and its row.
+    fn worst(&self, pattern: &SaddlePattern) -> (f64, usize) {
+        let (n, order) = (pattern.n, &pattern.symbolic.order);
+        let mut largest = [0.0_f64; 2];
+        for (magnitude, &variable) in self.magnitude.iter().zip(order) {
             let block = &mut largest[usize::from(variable as usize >= n)];
             *block = block.max(*magnitude);
         }

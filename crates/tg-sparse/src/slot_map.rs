@@ -75,6 +75,16 @@ impl SlotMap {
         })
     }
 
+    /// Diagonal value of a row, zero where there is none.
+    pub(crate) fn diagonal(&self, values: &[f64], row: usize) -> f64 {
+        let columns = self.rows.row(row);
+        let at = columns.partition_point(|&c| (c as usize) < row);
+        match columns.get(at) {
+            Some(&c) if c as usize == row => values[self.rows.start()[row] + at],
+            _ => 0.0,
+        }
+    }
+
     /// The row of the first value that is not finite.
     pub(crate) fn non_finite_row(&self, values: &[f64]) -> Option<usize> {
         let slot = values[..self.entries()].iter().position(|v| !v.is_finite())?;

@@ -20,13 +20,8 @@ const DIGITS: &str = "the scheme in 50 digits, data/multipliers.py";
 const GEOMETRY: &str = "geometry page of the example";
 
 /// Multipliers of the bar in the first five steps \[N/m\], printed by `data/multipliers.py`.
-const MULTIPLIERS: [f64; 5] = [
-    -2.05404055949152844,
-    -2.05453621479367663,
-    -2.05552753826830597,
-    -2.05701455686292651,
-    -2.05899731402090221,
-];
+const MULTIPLIERS: [f64; 5] =
+    [-2.054040559491528, -2.054536214793677, -2.055527538268306, -2.057014556862927, -2.058997314020902];
 
 /// All rows.
 ///
@@ -179,28 +174,48 @@ fn error_to_1s(pendulum: &DoublePendulum, h: f64, every: f64) -> Result<f64, Cas
 /// 500 s of mechanical energy by both schemes (Fig. 9).
 fn energy(rows: &mut Rows, pendulum: &DoublePendulum) -> Result<(), CaseError> {
     let e0 = framework().example1.energy;
-    let (mut worst, mut rate, mut line) = (0.0_f64, 0.0_f64, Line::default());
+    let (mut worst, mut rate, mut changes) = (0.0_f64, 0.0_f64, Vec::new());
     run(&pendulum.model, STEP, 500.0, |state| {
         let relative = pendulum.energy(state) / e0 - 1.0;
         worst = worst.max(relative.abs());
         rate = rate.max(simulate::constraint_rate(&pendulum.model, state));
-        line.add(state.t, relative);
+        changes.push(relative);
     })?;
+    let drift = drift(&changes).abs();
     rows.below("symplectic, 500 s: largest |ΔE/E0| (6.4e-3 there)", "1", worst, GEOMETRY, 7e-3);
-    rows.below("symplectic, 500 s: slope of ΔE/E0", "1/s", line.slope(), "no drift", 1e-7);
+    rows.below("symplectic, 500 s: slope of ΔE/E0", "1/s", drift, "no drift", 1e-7);
     rows.below("symplectic, 500 s: largest |A q̇|", "m²/s", rate, "velocity constraints", 1e-10);
     let mut stepper = GeneralizedAlpha::new(&pendulum.model, 0.7, NewtonOptions::default())?;
     let mut state = simulate::start(&pendulum.model, &mut stepper)?;
     Run::new(STEP, 100.0).go(&mut stepper, &mut state)?;
     let loss = (pendulum.energy(&state) / e0 - 1.0) / 100.0;
-    rows.near(
-        "generalised-α, ρ∞ = 0.7: loss of |E0| per second, mean of 100 s",
-        "1/s",
-        (loss, 4.1e-4),
-        GEOMETRY,
-        0.1e-4,
-    );
+    // The motion is chaotic: starts that differ by 1e-13 m/s lose 3.9e-4 to 5.4e-4 in this time.
+    let pair = (loss, 4.1e-4);
+    rows.near("generalised-α, ρ∞ = 0.7, 100 s: loss of |E0| per second", "1/s", pair, GEOMETRY, 1.5e-4);
     Ok(())
+}
+
+/// Slope of the line through the medians of 10 s \[1/s\]. Medians, because the energy error of this chaotic motion has
+/// rare spikes: a line through all values scatters by 1e-7 between starts that differ by 1e-13 m/s, this one by 1e-8.
+fn drift(changes: &[f64]) -> f64 {
+    let block = (10.0 / STEP) as usize;
+    let medians: Vec<f64> = changes
+        .chunks_exact(block)
+        .map(|values| {
+            let mut sorted = values.to_vec();
+            sorted.sort_by(f64::total_cmp);
+            sorted[block / 2]
+        })
+        .collect();
+    let middle = (medians.len() as f64 - 1.0) / 2.0;
+    let mean = medians.iter().sum::<f64>() / medians.len() as f64;
+    let (mut covariance, mut variance) = (0.0, 0.0);
+    for (k, median) in medians.iter().enumerate() {
+        let t = 10.0 * (k as f64 - middle);
+        covariance += t * (median - mean);
+        variance += t * t;
+    }
+    covariance / variance
 }
 
 /// What must not matter.
@@ -223,30 +238,6 @@ fn invariances(rows: &mut Rows, pendulum: &DoublePendulum) -> Result<(), CaseErr
     let back = simulate::time_reversal(&pendulum.model, &pendulum.model.velocities_at_rest(), STEP, 1000)?;
     rows.below("1000 steps forward and back: distance from the start", "m", back, "time symmetry", 1e-9);
     Ok(())
-}
-
-/// Straight line through points, by least squares.
-#[derive(Default)]
-struct Line {
-    n: f64,
-    t: f64,
-    y: f64,
-    tt: f64,
-    ty: f64,
-}
-
-impl Line {
-    fn add(&mut self, t: f64, y: f64) {
-        self.n += 1.0;
-        self.t += t;
-        self.y += y;
-        self.tt += t * t;
-        self.ty += t * y;
-    }
-
-    fn slope(&self) -> f64 {
-        (self.n * self.ty - self.t * self.y) / (self.n * self.tt - self.t * self.t)
-    }
 }
 
 /// An angle's difference within ±π.

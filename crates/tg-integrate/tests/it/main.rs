@@ -1,0 +1,18 @@
+//! Integration tests of tg-integrate, one module per subject in one program.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod allocation;
+mod bad_input;
+mod checkpoint;
+mod closed_forms;
+mod conservation;
+mod driver;
+mod failure;
+mod fallback;
+mod generalized_alpha;
+mod invariance;
+mod order;
+mod projection;
+mod reversal;
+mod slacking;
+mod support;

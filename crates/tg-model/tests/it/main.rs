@@ -1,0 +1,16 @@
+//! Integration tests of tg-model, one module per subject in one program.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod assemble;
+mod build_errors;
+mod build_errors_joints;
+mod cables;
+mod drive;
+mod model;
+mod projector;
+mod projector_position;
+mod redundancy;
+mod resultant;
+mod signal;
+mod support;
+mod tangents;

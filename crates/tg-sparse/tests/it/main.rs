@@ -1,0 +1,9 @@
+//! Integration tests of tg-sparse, one module per subject in one program.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod assembly;
+mod dense;
+mod rank;
+mod repeated;
+mod singular;
+mod support;
