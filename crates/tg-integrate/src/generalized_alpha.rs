@@ -12,9 +12,10 @@
 
 use tg_model::{At, Mechanics, ProjectionError, Projector};
 
-use crate::start;
+use crate::check;
+use crate::error::{StartError, StepError};
 use crate::state::State;
-use crate::stepper::{NewtonOptions, StartError, StepError, StepFailure, StepReport, Stepper};
+use crate::stepper::{NewtonOptions, StepReport, Stepper};
 use crate::system::{Factors, Failure, NewtonSystem, Worst};
 
 /// Coefficients for one spectral radius.
@@ -195,8 +196,8 @@ impl Stepper for GeneralizedAlpha<'_> {
 
     /// Also solves `M q̈ - Aᵀλ = F, A q̈ = -Ȧ q̇` for the first acceleration.
     fn start(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {
-        let start = start::check(self.system.mechanics, t, q, v)?;
-        let mut state = start::project(&mut self.projector, start)?;
+        let start = check::start(self.system.mechanics, t, q, v)?;
+        let mut state = check::project(&mut self.projector, start)?;
         let mechanics = self.system.mechanics;
         // Any short time serves for the supports' acceleration at the start.
         self.acceleration.fill(0.0);
@@ -222,12 +223,7 @@ impl Stepper for GeneralizedAlpha<'_> {
 
     fn step(&mut self, state: &mut State, h: f64) -> Result<StepReport, StepError> {
         let t = state.t;
-        if !(h.is_finite() && h > 0.0) {
-            return Err(StepError { t, h, residual: f64::NAN, failure: StepFailure::BadStep });
-        }
-        state
-            .check_lengths(self.system.mechanics.sizes(), 2 * self.q.len())
-            .map_err(|failure| StepError { t, h, residual: f64::NAN, failure })?;
+        check::step(state, h, self.system.mechanics.sizes(), 2 * self.q.len())?;
         let fallbacks = self.system.fallbacks();
         self.q.copy_from_slice(&state.q);
         self.v.copy_from_slice(&state.v);

@@ -29,18 +29,20 @@
 //!
 //! A [`State`] is plain data and a checkpoint: serialised and read back exactly, a run continues bit for bit.
 
+mod check;
+mod error;
 mod generalized_alpha;
 mod recorder;
 mod run;
-mod start;
 mod state;
 mod stepper;
 mod symplectic;
 mod system;
 
+pub use error::{StartError, StepError, StepFailure};
 pub use generalized_alpha::GeneralizedAlpha;
 pub use recorder::Recorder;
 pub use run::{Ended, Observer, Run, RunError, Summary};
 pub use state::State;
-pub use stepper::{NewtonOptions, StartError, StepError, StepFailure, StepReport, Stepper};
+pub use stepper::{NewtonOptions, StepReport, Stepper};
 pub use symplectic::Symplectic;

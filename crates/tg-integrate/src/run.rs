@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
 
+use crate::error::{StepError, StepFailure};
 use crate::state::State;
-use crate::stepper::{StepError, StepFailure, StepReport, Stepper};
+use crate::stepper::{StepReport, Stepper};
 
 /// Sees each accepted step, and the start with an empty report.
 pub trait Observer {

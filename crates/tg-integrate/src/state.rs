@@ -1,10 +1,6 @@
 //! The state of a simulation: plain numbers, cheap to clone, serialisable. A checkpoint is a state.
 
 use serde::{Deserialize, Serialize};
-use tg_model::Sizes;
-
-use crate::stepper::StepFailure;
-
 /// Everything that the next step depends on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -31,22 +27,6 @@ impl State {
         let part = sum - self.t;
         self.t_rest = (self.t - (sum - part)) + (added - part);
         self.t = sum;
-    }
-
-    /// Whether the vectors have the lengths of a system's coordinates and constraints and of a stepper's memory.
-    pub(crate) fn check_lengths(&self, sizes: Sizes, memory: usize) -> Result<(), StepFailure> {
-        let vectors = [
-            ("coordinates", &self.q, sizes.coordinates),
-            ("velocities", &self.v, sizes.coordinates),
-            ("multipliers", &self.lambda, sizes.constraints),
-            ("numbers in memory", &self.memory, memory),
-        ];
-        for (what, vector, expected) in vectors {
-            if vector.len() != expected {
-                return Err(StepFailure::ForeignState { what, got: vector.len(), expected });
-            }
-        }
-        Ok(())
     }
 
     /// Overwrites this state without allocating; sizes must agree.

@@ -20,12 +20,16 @@
 //! - Law (30) with damping jumps at re-tensioning, and a step may have no solution. After a few iterations the active
 //!   set is frozen; a result that contradicts it is not taken, but the step is repeated in 2, 4, 8 … substeps; only
 //!   the smallest substep is accepted against a cable's law, and the report counts it.
+//!
+//! The midpoint rule does not damp what it cannot resolve: a damper with h η/2 far above the mass that it acts on
+//! reverses the closing velocity instead of stopping it (measured: factor -0.88 at a ratio of 15). Choose h smaller.
 
 use tg_model::{At, Mechanics, ProjectionError, Projector};
 
-use crate::start;
+use crate::check;
+use crate::error::{StartError, StepError};
 use crate::state::State;
-use crate::stepper::{NewtonOptions, StartError, StepError, StepFailure, StepReport, Stepper};
+use crate::stepper::{NewtonOptions, StepReport, Stepper};
 use crate::system::{Factors, Failure, NewtonSystem, Worst};
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
@@ -257,8 +261,8 @@ impl Stepper for Symplectic<'_> {
     }
 
     fn start(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {
-        let start = start::check(self.system.mechanics, t, q, v)?;
-        let mut state = start::project(&mut self.projector, start)?;
+        let start = check::start(self.system.mechanics, t, q, v)?;
+        let mut state = check::project(&mut self.projector, start)?;
         if !self.project {
             let row = |&i: &usize| self.system.inertia.row(i, &state.v);
             state.memory = self.system.mechanics.free().iter().map(row).collect();
@@ -268,12 +272,7 @@ impl Stepper for Symplectic<'_> {
 
     fn step(&mut self, state: &mut State, h: f64) -> Result<StepReport, StepError> {
         let t = state.t;
-        if !(h.is_finite() && h > 0.0) {
-            return Err(StepError { t, h, residual: f64::NAN, failure: StepFailure::BadStep });
-        }
-        state
-            .check_lengths(self.system.mechanics.sizes(), self.trial.memory.len())
-            .map_err(|failure| StepError { t, h, residual: f64::NAN, failure })?;
+        check::step(state, h, self.system.mechanics.sizes(), self.trial.memory.len())?;
         let fallbacks = self.fallbacks();
         let mut report = StepReport::default();
         let mut failed = None;

@@ -8,7 +8,7 @@
 use tg_model::{At, HessianEntry, Inertia, Layout, Mechanics};
 use tg_sparse::{SaddleSystem, SparseError};
 
-use crate::stepper::StepFailure;
+use crate::error::StepFailure;
 
 /// Groups of leading entries, in the order in which the pattern is made.
 const MASS: usize = 0;

@@ -15,6 +15,10 @@ use crate::placed::{Cable, PlacedMember};
 use crate::report::BuildReport;
 
 /// A checked structure in D-dimensional space; offers itself to the solvers as [`Mechanics`].
+///
+/// Handles are those of the builder that made the model, and slices have the lengths of its coordinates and inputs. A
+/// handle of another builder or a slice of another length panics at the caller like an index out of range; only
+/// [`Model::form`] checks its handle.
 #[derive(Clone, Debug)]
 pub struct Model<const D: usize> {
     pub(crate) members: Vec<PlacedMember<D>>,
@@ -127,6 +131,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Natural coordinates (or their rates) of a member out of full ones: one D-vector per node.
+    #[track_caller]
     pub fn member_nodes(&self, member: MemberId, x: &[f64]) -> Vec<SVector<f64, D>> {
         self.members[member.0].nodes.iter().map(|&n| node(x, n)).collect()
     }
@@ -135,6 +140,7 @@ impl<const D: usize> Model<D> {
     ///
     /// # Errors
     /// The coordinates are not finite or degenerate.
+    #[track_caller]
     pub fn pose(&self, member: MemberId, q: &[f64]) -> Result<PoseFit<D>, CoordsError> {
         self.members[member.0].member.pose(&self.member_nodes(member, q))
     }
@@ -143,6 +149,7 @@ impl<const D: usize> Model<D> {
     ///
     /// # Errors
     /// The coordinates are not finite or degenerate.
+    #[track_caller]
     pub fn twist(&self, member: MemberId, q: &[f64], v: &[f64]) -> Result<Twist<D>, CoordsError> {
         self.members[member.0].member.twist(&self.member_nodes(member, q), &self.member_nodes(member, v))
     }
@@ -152,6 +159,7 @@ impl<const D: usize> Model<D> {
     ///
     /// # Errors
     /// The coordinates are not finite or degenerate.
+    #[track_caller]
     pub fn set_twist(
         &self,
         member: MemberId,
@@ -168,6 +176,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Length, rate, rest length, tension and slackness of one cable.
+    #[track_caller]
     pub fn cable(&self, cable: CableId, q: &[f64], v: &[f64], u: &[f64]) -> CableState {
         let part = &self.cables[cable.0];
         cable_state(&part.form, &part.law, u[cable.0], q, v)
@@ -184,26 +193,31 @@ impl<const D: usize> Model<D> {
     }
 
     /// Name of a cable.
+    #[track_caller]
     pub fn cable_name(&self, cable: CableId) -> &str {
         &self.cables[cable.0].name
     }
 
     /// Name of a member.
+    #[track_caller]
     pub fn member_name(&self, member: MemberId) -> &str {
         &self.members[member.0].name
     }
 
     /// Name of a point force.
+    #[track_caller]
     pub fn load_name(&self, load: LoadId) -> &str {
         &self.load_names[load.0]
     }
 
     /// The vector l = J q of a cable (26), from its first place to its second.
+    #[track_caller]
     pub fn cable_form(&self, cable: CableId) -> &Form<D> {
         &self.cables[cable.0].form
     }
 
     /// Energies at full coordinates, velocities and inputs.
+    #[track_caller]
     pub fn energy(&self, q: &[f64], v: &[f64], u: &[f64]) -> Energy {
         let dot = |f: &[f64]| -f.iter().zip(q).map(|(f, q)| f * q).sum::<f64>();
         let load = |(k, form): (usize, &Form<D>)| {

@@ -169,8 +169,8 @@ impl<'m> Projector<'m> {
     pub fn position(&mut self, q: &mut [f64]) -> Result<Moved, ProjectionError> {
         let start = q.to_vec();
         let n = self.layout.unknowns();
-        let mut before = f64::INFINITY;
-        for iterations in 0..=MAX_ITERATIONS {
+        let (mut before, mut iterations) = (f64::INFINITY, 0);
+        loop {
             let (worst, residual) = self.constraint_residual(q);
             let accepted = ACCEPTED.max(self.rounding(worst, q));
             if residual <= CONSISTENT || (residual <= accepted && residual >= 0.5 * before) {
@@ -191,8 +191,8 @@ impl<'m> Projector<'m> {
             for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
                 q[i] += delta;
             }
+            iterations += 1;
         }
-        unreachable!("the loop returns at its last iteration")
     }
 
     /// Index and size of the largest scaled constraint residual at `q`.

@@ -17,7 +17,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let marker = body.point_weights(Vector3::new(0.2, 0.0, 0.1))?;
     let (at, speed) = (marker.apply(&q), marker.apply(&v).norm());
     let energy = body.kinetic_energy(&v);
-    println!("marker at ({:.4}, {:.4}, {:.4}) m, {speed:.4} m/s; kinetic energy {energy:.4} J", at.x, at.y, at.z);
+    println!(
+        "marker at ({:.4}, {:.4}, {:.4}) m, {speed:.4} m/s; kinetic energy {energy:.4} J",
+        at.x, at.y, at.z
+    );
 
     let expected = 0.5 * 2.0 * 0.1_f64.powi(2) + 0.5 * 0.05 * 3.0_f64.powi(2);
     if (energy - expected).abs() < 1e-12 { Ok(()) } else { Err("the energy is not ½mv² + ½Iω²".into()) }

@@ -22,9 +22,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", model.report());
 
     let top = model.form(mast.node(1))?;
-    let mut recorder = Recorder::every(10)
-        .channel("top x", |state| top.eval(&state.q).x)
-        .channel("left tension", |state| {
+    let mut recorder =
+        Recorder::every(10).channel("top x", |state| top.eval(&state.q).x).channel("left tension", |state| {
             model.cable(guys[0], &state.q, &state.v, &model.inputs_at(state.t)).tension
         });
     let mut stepper = Symplectic::new(&model, NewtonOptions::default())?;

@@ -1,16 +1,16 @@
-//! Checks of the start that all schemes share.
+//! Checks of a start and of a step that all schemes share.
 
-use tg_model::{Mechanics, Projector};
+use tg_model::{Mechanics, Projector, Sizes};
 
+use crate::error::{StartError, StepError, StepFailure};
 use crate::state::State;
-use crate::stepper::StartError;
 
 /// Scaled violation of a constraint above which a start counts as not assembled: a thousand times the rounding of
 /// hand-written coordinates, a millionth of what a misplaced member shows.
 const ASSEMBLED: f64 = 1e-9;
 
 /// A state with prescribed components in place, finite and of the right size.
-pub(crate) fn check(mechanics: &dyn Mechanics, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {
+pub(crate) fn start(mechanics: &dyn Mechanics, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {
     let sizes = mechanics.sizes();
     for (what, x) in [("coordinates", q), ("velocities", v)] {
         if x.len() != sizes.coordinates {
@@ -37,4 +37,25 @@ pub(crate) fn project(projector: &mut Projector<'_>, mut state: State) -> Result
     }
     projector.velocity(&state.q, &mut state.v)?;
     Ok(state)
+}
+
+/// Refuses a step that is not positive and finite, and a state whose vectors are not those of the system's sizes and of
+/// the scheme's memory.
+pub(crate) fn step(state: &State, h: f64, sizes: Sizes, memory: usize) -> Result<(), StepError> {
+    let refuse = |failure| Err(StepError { t: state.t, h, residual: f64::NAN, failure });
+    if !(h.is_finite() && h > 0.0) {
+        return refuse(StepFailure::BadStep);
+    }
+    let vectors = [
+        ("coordinates", &state.q, sizes.coordinates),
+        ("velocities", &state.v, sizes.coordinates),
+        ("multipliers", &state.lambda, sizes.constraints),
+        ("numbers in memory", &state.memory, memory),
+    ];
+    match vectors.into_iter().find(|(_, vector, expected)| vector.len() != *expected) {
+        None => Ok(()),
+        Some((what, vector, expected)) => {
+            refuse(StepFailure::ForeignState { what, got: vector.len(), expected })
+        }
+    }
 }

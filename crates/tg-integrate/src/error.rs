@@ -1,0 +1,127 @@
+//! Why a simulation cannot start, or a step fails: when, where, and what may mend it.
+
+use tg_model::ProjectionError;
+use tg_sparse::SparseError;
+use thiserror::Error;
+
+/// Why a simulation cannot start.
+#[derive(Clone, Debug, Error)]
+pub enum StartError {
+    /// Lengths of q and q̇ differ from the system's.
+    #[error("the start has {got} {what}, the structure has {expected} coordinates")]
+    Length {
+        /// Which vector.
+        what: &'static str,
+        /// Its length.
+        got: usize,
+        /// Number of coordinates.
+        expected: usize,
+    },
+    /// A coordinate or velocity is NaN or infinite.
+    #[error("the start is not finite at the {0}; give finite coordinates, velocities and signals")]
+    NotFinite(String),
+    /// The coordinates do not satisfy the constraints.
+    #[error(
+        "the start violates {constraint} by {residual:.3e} (scaled); project the coordinates first (Projector::position)"
+    )]
+    Inconsistent {
+        /// The worst constraint.
+        constraint: String,
+        /// Its scaled residual.
+        residual: f64,
+    },
+    /// The velocities cannot be projected: mass is missing or constraints are redundant.
+    #[error(transparent)]
+    Projection(#[from] ProjectionError),
+    /// A parameter of the scheme is out of range.
+    #[error("the {name} is {value}; it must {must}")]
+    Parameter {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The rule.
+        must: &'static str,
+    },
+}
+
+/// A failed step: when, how far from converged, and why.
+#[derive(Clone, Debug, Error)]
+#[error("the step of {h} s from t = {t} s failed: {failure}")]
+pub struct StepError {
+    /// Time at the start of the step \[s\].
+    pub t: f64,
+    /// Step \[s\].
+    pub h: f64,
+    /// Scaled residual at the end of the last attempt.
+    pub residual: f64,
+    /// Why.
+    pub failure: StepFailure,
+}
+
+/// Why a step failed.
+#[derive(Clone, Debug, Error)]
+pub enum StepFailure {
+    /// The step is not a positive finite number.
+    #[error("the step must be positive and finite")]
+    BadStep,
+    /// The end of a run is not a number.
+    #[error("the end time is {end}; give a number (infinity for a run that a condition stops)")]
+    BadEnd {
+        /// The end given \[s\].
+        end: f64,
+    },
+    /// A state of another system, or of another scheme.
+    #[error("the state has {got} {what}, the stepper expects {expected}; start it with this stepper")]
+    ForeignState {
+        /// Which vector.
+        what: &'static str,
+        /// Its length.
+        got: usize,
+        /// The length expected.
+        expected: usize,
+    },
+    /// Newton's method does not converge even in substeps.
+    #[error(
+        "Newton's method left a scaled residual of {residual:.1e} after {iterations} iterations in the smallest substep, largest at the {worst}{}; a smaller step, or more damping, may mend it",
+        at_cables(cables)
+    )]
+    NotConverged {
+        /// Iterations of the last attempt.
+        iterations: u32,
+        /// Residual of the last attempt.
+        residual: f64,
+        /// The coordinate or constraint with the largest residual.
+        worst: String,
+        /// Cables at that coordinate.
+        cables: Vec<String>,
+    },
+    /// A residual is NaN or infinite.
+    #[error(
+        "the residual is not finite at the {worst}{}; look for a signal that is not finite, or a cable of zero length",
+        at_cables(cables)
+    )]
+    NotFinite {
+        /// The coordinate or constraint.
+        worst: String,
+        /// Cables at that coordinate.
+        cables: Vec<String>,
+    },
+    /// The linear system cannot be solved.
+    #[error(
+        "the linear system cannot be solved at the {culprit} ({source}); the structure is in a singular pose, or constraints are redundant"
+    )]
+    Solver {
+        /// The coordinate or constraint.
+        culprit: String,
+        /// The solver's reason.
+        source: SparseError,
+    },
+    /// The velocities cannot be projected.
+    #[error(transparent)]
+    Projection(ProjectionError),
+}
+
+fn at_cables(cables: &[String]) -> String {
+    if cables.is_empty() { String::new() } else { format!(" (cables there: {})", cables.join(", ")) }
+}
