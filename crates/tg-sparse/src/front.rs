@@ -4,7 +4,7 @@
 //! lower triangle of the first w columns holds the rest of L, and an update matrix r × r.
 
 use crate::kernels::{TILE, pack, subtract_product, subtract_rows};
-use crate::static_lu::PivotTrouble;
+use crate::pivot::PivotTrouble;
 
 /// Rows that a product takes at a time: a block of a large front stays in the second-level cache.
 const BLOCK: usize = 64;

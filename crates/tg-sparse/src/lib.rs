@@ -57,6 +57,7 @@ mod front;
 mod kernels;
 mod order;
 mod pattern;
+mod pivot;
 #[cfg(feature = "pivoting")]
 mod pivoting;
 mod rank;

@@ -10,10 +10,11 @@
 
 use crate::error::SparseError;
 use crate::pattern::SaddlePattern;
+use crate::pivot::{PivotRule, PivotTrouble};
 #[cfg(feature = "pivoting")]
 use crate::pivoting::PivotingLu;
 use crate::refinement::{Outcome, Vectors, stands_probe};
-use crate::static_lu::{PivotRule, PivotTrouble, StaticLu};
+use crate::static_lu::StaticLu;
 
 /// What a solve did.
 #[derive(Clone, Copy, Debug, PartialEq)]

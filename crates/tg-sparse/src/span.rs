@@ -6,8 +6,9 @@
 
 use crate::error::Row;
 use crate::pattern::SaddlePattern;
+use crate::pivot::PivotRule;
 use crate::refinement::stands_probe;
-use crate::static_lu::{PivotRule, StaticLu};
+use crate::static_lu::StaticLu;
 use std::collections::BTreeSet;
 
 /// Pivots of kept rows below this are probed for being rounding error.
