@@ -33,11 +33,11 @@ pub struct NewtonOptions {
     pub tolerance: f64,
     /// Iterations before an attempt at a step is given up: several times what a step that converges needs.
     pub max_iterations: u32,
-    /// Iterations after which the symplectic scheme freezes the active set of slacking cables. From 3 to 20 the results
+    /// Iterations after which the symplectic scheme freezes the active set of slacking cables. From 3 to 10 the results
     /// are the same (`cargo xtask defaults`).
     pub freeze_after: u32,
-    /// How often the symplectic scheme may halve a step that fails. On the tower with damped slacking cables one halving
-    /// sufficed at each of sixty step sizes; the others are in reserve.
+    /// How often the symplectic scheme may halve a step that fails. On the tower with damped slacking cables one suffices
+    /// (`cargo xtask defaults`); the others are in reserve.
     pub halvings: u32,
 }
 
