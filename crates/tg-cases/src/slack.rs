@@ -48,9 +48,12 @@ impl SlackWatch {
                 self.found.push(SlackInterval { cable, from, to: end });
             }
         }
-        self.found.sort_by(|a, b| {
-            (a.cable, a.from).partial_cmp(&(b.cable, b.from)).unwrap_or(std::cmp::Ordering::Equal)
-        });
+        sort(&mut self.found);
         self.found
     }
+}
+
+/// Sorts intervals by cable and time.
+pub fn sort(intervals: &mut [SlackInterval]) {
+    intervals.sort_by(|a, b| a.cable.cmp(&b.cable).then(a.from.total_cmp(&b.from)));
 }

@@ -10,7 +10,7 @@
 //! Prescribed components follow their signals; their acceleration is the central difference of the rate over the
 //! step's length. Velocities are not projected: the scheme is shown as it is.
 
-use tg_model::{At, Mechanics, ProjectionError, Projector};
+use tg_model::{At, Mechanics, Projector};
 
 use crate::check;
 use crate::error::{StartError, StepError};
@@ -73,10 +73,7 @@ impl<'m> GeneralizedAlpha<'m> {
         let gamma = 0.5 + alpha_f - alpha_m;
         let c = Coefficients { alpha_m, alpha_f, beta: 0.25 * (gamma + 0.5).powi(2), gamma };
         let sizes = mechanics.sizes();
-        let system = NewtonSystem::new(mechanics, true).map_err(|source| ProjectionError::Solver {
-            culprit: "the structure as a whole".into(),
-            source,
-        })?;
+        let system = NewtonSystem::new(mechanics, true)?;
         let zeros = || vec![0.0; sizes.coordinates];
         Ok(Self {
             options,

@@ -84,10 +84,7 @@ impl<'m> Symplectic<'m> {
         let sizes = mechanics.sizes();
         let (n, m) = (sizes.coordinates, sizes.constraints);
         let projector = Projector::new(mechanics)?;
-        let system = NewtonSystem::new(mechanics, false).map_err(|source| ProjectionError::Solver {
-            culprit: "the structure as a whole".into(),
-            source,
-        })?;
+        let system = NewtonSystem::new(mechanics, false)?;
         let zeros = || vec![0.0; n];
         Ok(Self {
             options,

@@ -5,7 +5,7 @@
 //! [A₁  0 ] [δν] = - [Φ]
 //! ```
 
-use tg_model::{At, HessianEntry, Inertia, Layout, Mechanics};
+use tg_model::{At, HessianEntry, Inertia, Layout, Mechanics, ProjectionError};
 use tg_sparse::{SaddleSystem, SparseError};
 
 use crate::error::StepFailure;
@@ -55,7 +55,7 @@ pub(crate) struct Worst {
 
 impl<'m> NewtonSystem<'m> {
     /// `with_curvature` adds the constraints' second derivative (schemes that differentiate Aᵀλ).
-    pub(crate) fn new(mechanics: &'m dyn Mechanics, with_curvature: bool) -> Result<Self, SparseError> {
+    pub(crate) fn new(mechanics: &'m dyn Mechanics, with_curvature: bool) -> Result<Self, ProjectionError> {
         let sizes = mechanics.sizes();
         let layout = Layout::new(mechanics);
         let mass: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
@@ -63,7 +63,9 @@ impl<'m> NewtonSystem<'m> {
         let curved: Vec<_> = curvature.iter().map(|e| (e.row, e.col)).collect();
         let groups: [&[(usize, usize)]; 4] =
             [&mass, mechanics.stiffness_pattern(), mechanics.damping_pattern(), &curved];
-        let pattern = layout.saddle(mechanics, &groups)?;
+        let pattern = layout
+            .saddle(mechanics, &groups)
+            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
             saddle: SaddleSystem::new(pattern),
@@ -193,5 +195,5 @@ pub(crate) enum Failure {
     NotConverged,
     NotFinite,
     Solver(SparseError),
-    Projection(tg_model::ProjectionError),
+    Projection(ProjectionError),
 }

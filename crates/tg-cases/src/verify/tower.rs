@@ -9,7 +9,7 @@ use crate::published::{EXACT, SCHEME, framework};
 use crate::reference::tower as angles;
 use crate::row::{Row, Rows};
 use crate::simulate::{self, STEP, order, record, run, run_from};
-use crate::slack::{SlackInterval, SlackWatch};
+use crate::slack::{self, SlackInterval, SlackWatch};
 use crate::tower::{Choices, Joints, Setup, Tower};
 
 /// Name of the case.
@@ -196,9 +196,7 @@ fn slackness(rows: &mut Rows, setup: Setup) -> Result<(), CaseError> {
         MODEL,
     );
     let mut sorted = theirs;
-    sorted.sort_by(|a, b| {
-        (a.cable, a.from).partial_cmp(&(b.cable, b.from)).unwrap_or(std::cmp::Ordering::Equal)
-    });
+    slack::sort(&mut sorted);
     let apart = |(a, b): (&SlackInterval, &SlackInterval)| {
         if a.cable == b.cable { (a.from - b.from).abs().max((a.to - b.to).abs()) } else { f64::INFINITY }
     };
