@@ -1,14 +1,14 @@
 //! From a builder to a model: numbering of shared nodes, supports, constraints, checks.
 
 use crate::cables::Cables;
-use crate::constraints::{Constraint, Constraints, Named};
+use crate::constraints::{Constraint, ConstraintSource, Constraints, Named};
 use crate::drive::Drive;
 use crate::error::BuildError;
 use crate::form::add_to_node;
 use crate::inertia::{self, Inertia};
 use crate::model::Model;
 use crate::nodes::{MEETING, Nodes};
-use crate::parts::{Joining, JointPart, Parts, Place, Redundancies, axis_name};
+use crate::parts::{Joining, JointPart, MemberId, Parts, Place, Redundancies, axis_name};
 use crate::placed::{Cable, PlacedMember};
 use crate::redundancy;
 use crate::report::BuildReport;
@@ -77,6 +77,7 @@ pub(crate) fn assemble<const D: usize>(parts: &Parts<D>) -> Result<Model<D>, Bui
         hessian: constraints.hessian::<D>(),
         constraints,
         dropped: Constraints::new(&ordered(dropped)),
+        constraint_sources: list.iter().map(|c| c.source.clone()).collect(),
         constraint_names: list.into_iter().map(|c| c.name).collect(),
         node_names: nodes.names(),
         stiffness_pattern: in_equations.stiffness_pattern::<D>(),
@@ -170,6 +171,7 @@ fn intrinsic<const D: usize>(parts: &Parts<D>, nodes: &Nodes<D>) -> Vec<Named<D>
         for dot in part.member.constraints() {
             list.push(Named {
                 name: format!("rigidity {} of \"{}\"", dot.label(), part.name),
+                source: ConstraintSource::Rigidity(MemberId(m)),
                 constraint: Constraint::Dot {
                     a: nodes.member_form(m, dot.a()),
                     b: nodes.member_form(m, dot.b()),
@@ -209,6 +211,11 @@ fn joints<const D: usize>(
                     joint.name,
                     nodes.describe(parts, other)
                 ),
+                source: ConstraintSource::Joint {
+                    name: joint.name.clone(),
+                    at: nodes.describe(parts, other),
+                    axis,
+                },
                 constraint: Constraint::component(&gap, axis, scale),
             }));
         }
@@ -224,9 +231,8 @@ fn cables<const D: usize>(
     is_free: impl Fn(usize) -> bool,
 ) -> Result<AllCables<D>, BuildError> {
     let q = nodes.initial();
-    let (mut list, mut sets, mut idle) = (Vec::new(), Cables::default(), Vec::new());
-    let moves = |node: usize| (node * D..node * D + D).any(&is_free);
-    for (id, part) in parts.cables.iter().enumerate() {
+    let (mut list, mut idle) = (Vec::new(), Vec::new());
+    for part in &parts.cables {
         let from = nodes.point(parts, "cable", &part.name, part.from)?;
         let form = nodes.point(parts, "cable", &part.name, part.to)?.minus(&from);
         let length = form.eval(&q).norm();
@@ -237,12 +243,11 @@ fn cables<const D: usize>(
                 to: nodes.describe(parts, part.to),
             });
         }
-        if form.terms().iter().any(|&(node, _)| moves(node)) {
-            sets.push(id, &form, &part.law, |a, b| moves(a) && moves(b));
-        } else {
+        if !form.terms().iter().any(|&(node, _)| (node * D..node * D + D).any(&is_free)) {
             idle.push(part.name.clone());
         }
         list.push(Cable { name: part.name.clone(), form, law: part.law.clone() });
     }
+    let sets = Cables::of(&list, is_free);
     Ok((list, sets, idle))
 }

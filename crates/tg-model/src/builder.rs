@@ -9,7 +9,7 @@ use tg_coords::{Member, Pose};
 
 use crate::assemble::assemble;
 use crate::error::BuildError;
-use crate::law::CableLaw;
+use crate::law::{CableLaw, not_negative};
 use crate::model::Model;
 use crate::parts::{
     AnchorId, AnchorPart, CableId, CablePart, Joining, JointPart, LoadId, LoadPart, MemberId, MemberPart,
@@ -185,10 +185,7 @@ impl<const D: usize> ModelBuilder<D> {
         law: CableLaw,
         rest: impl Into<Signal>,
     ) -> Result<CableId, BuildError> {
-        if let CableLaw::Linear { stiffness, damping } | CableLaw::Slacking { stiffness, damping } = law {
-            not_negative(name, "stiffness", stiffness)?;
-            not_negative(name, "damping", damping)?;
-        }
+        law.check(name)?;
         let rest = checked_signal("cable", name, rest.into())?;
         if let Some(value) = rest.constant() {
             not_negative(name, "rest length", value)?;
@@ -243,16 +240,6 @@ fn finite<const D: usize>(
         Ok(x.into())
     } else {
         Err(BuildError::NotFinite { kind, name: name.into(), what })
-    }
-}
-
-fn not_negative(name: &str, what: &'static str, value: f64) -> Result<(), BuildError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else if value.is_finite() {
-        Err(BuildError::OutOfRange { kind: "cable", name: name.into(), what, value, must: "not be negative" })
-    } else {
-        Err(BuildError::NotFinite { kind: "cable", name: name.into(), what })
     }
 }
 

@@ -117,11 +117,36 @@ impl<L: Law> CableSet<L> {
             let line = self.line::<D>(i, at, damped);
             let tension = self.tension(i, &line, at);
             let block = if tension == Tension::default() { SMatrix::zeros() } else { block(&line, &tension) };
-            for &(w, _, _) in &self.pairs[self.pair_start[i] as usize..self.pair_start[i + 1] as usize] {
-                for r in 0..D {
-                    for (c, value) in (0..D).zip(&mut *values) {
-                        *value = w * block[(r, c)];
-                    }
+            self.spread_block(i, &block, values);
+        }
+    }
+
+    /// Tangent blocks of given tensions, one per cable of the structure, without elasticity.
+    pub(crate) fn geometric<const D: usize>(
+        &self,
+        at: At<'_>,
+        tension: &[f64],
+        values: &mut std::slice::IterMut<'_, f64>,
+    ) {
+        for i in 0..self.laws.len() {
+            let line = self.line::<D>(i, at, false);
+            let force = tension[self.input[i] as usize];
+            let block = stiffness_block(&line, &Tension { force, by_length: 0.0, by_rate: 0.0 });
+            self.spread_block(i, &block, values);
+        }
+    }
+
+    /// The block spread by the products of weights, in the entry order of the pattern.
+    fn spread_block<const D: usize>(
+        &self,
+        i: usize,
+        block: &SMatrix<f64, D, D>,
+        values: &mut std::slice::IterMut<'_, f64>,
+    ) {
+        for &(w, _, _) in &self.pairs[self.pair_start[i] as usize..self.pair_start[i + 1] as usize] {
+            for r in 0..D {
+                for (c, value) in (0..D).zip(&mut *values) {
+                    *value = w * block[(r, c)];
                 }
             }
         }

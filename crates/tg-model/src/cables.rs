@@ -6,6 +6,7 @@ use crate::cable_set::{CableSet, damping_block, stiffness_block};
 use crate::form::Form;
 use crate::law::CableLaw;
 use crate::mechanics::At;
+use crate::placed::Cable;
 use crate::tension::{Law, LinearLaw, UserLaw};
 
 /// State of one cable.
@@ -52,8 +53,20 @@ macro_rules! each_set {
 }
 
 impl Cables {
+    /// The cables of a structure that touch a free coordinate; their tangents reach the free nodes.
+    pub(crate) fn of<const D: usize>(list: &[Cable<D>], is_free: impl Fn(usize) -> bool) -> Self {
+        let moves = |node: usize| (node * D..node * D + D).any(&is_free);
+        let mut sets = Self::default();
+        for (id, cable) in list.iter().enumerate() {
+            if cable.form.terms().iter().any(|&(node, _)| moves(node)) {
+                sets.push(id, &cable.form, &cable.law, |a, b| moves(a) && moves(b));
+            }
+        }
+        sets
+    }
+
     /// Adds cable `id`, whose rest length is input `id`; `l = form(q)`. `pairs` says which node pairs have a tangent.
-    pub(crate) fn push<const D: usize>(
+    fn push<const D: usize>(
         &mut self,
         id: usize,
         form: &Form<D>,
@@ -91,6 +104,17 @@ impl Cables {
     pub(crate) fn stiffness<const D: usize>(&self, at: At<'_>, values: &mut [f64]) {
         let mut values = values.iter_mut();
         each_set!(self, |set| set.tangent::<D>(at, &mut values, stiffness_block));
+    }
+
+    /// As [`Cables::stiffness`] with these tensions (one per cable) and no elasticity.
+    pub(crate) fn geometric_stiffness<const D: usize>(
+        &self,
+        at: At<'_>,
+        tension: &[f64],
+        values: &mut [f64],
+    ) {
+        let mut values = values.iter_mut();
+        each_set!(self, |set| set.geometric::<D>(at, tension, &mut values));
     }
 
     pub(crate) fn damping<const D: usize>(&self, at: At<'_>, values: &mut [f64]) {

@@ -10,6 +10,7 @@ use nalgebra::SVector;
 
 use crate::form::{Form, node};
 use crate::mechanics::HessianEntry;
+use crate::parts::MemberId;
 
 /// Intrinsic constraints (dot products), then extrinsic ones (linear), in the order of the rows of Φ.
 #[derive(Clone, Debug)]
@@ -76,9 +77,33 @@ impl<const D: usize> Constraint<D> {
     }
 }
 
+/// What a constraint belongs to: what its multiplier is the force of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ConstraintSource {
+    /// An intrinsic constraint of a member (5).
+    Rigidity(MemberId),
+    /// One component of a joint by constraints (19).
+    Joint {
+        /// The joint's name.
+        name: String,
+        /// The place that is held to the joint's first one.
+        at: String,
+        /// The component.
+        axis: usize,
+    },
+    /// One component of a support at a material point.
+    Support {
+        /// The support's name.
+        name: String,
+        /// The component.
+        axis: usize,
+    },
+}
+
 /// A constraint and the words for it.
 pub(crate) struct Named<const D: usize> {
     pub(crate) name: String,
+    pub(crate) source: ConstraintSource,
     pub(crate) constraint: Constraint<D>,
 }
 

@@ -5,6 +5,7 @@ use nalgebra::SVector;
 use crate::mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
 use crate::model::Model;
 use crate::parts::axis_name;
+use crate::placed::Cable;
 
 impl<const D: usize> Mechanics for Model<D> {
     fn sizes(&self) -> Sizes {
@@ -94,6 +95,15 @@ impl<const D: usize> Mechanics for Model<D> {
 
     fn potential(&self, q: &[f64], u: &[f64]) -> f64 {
         self.energy(q, &[], u).potential()
+    }
+
+    fn force_scale(&self, at: At<'_>) -> f64 {
+        let tension = |(cable, rest): (&Cable<D>, &f64)| {
+            cable.law.static_tension(cable.form.eval(at.q).norm(), *rest).abs()
+        };
+        let tensions = self.cables.iter().zip(at.u).map(tension);
+        let loads = at.u[self.cables.len()..].iter().chain(&self.weight).map(|f| f.abs());
+        tensions.chain(loads).fold(0.0, f64::max)
     }
 
     fn coordinate_name(&self, coordinate: usize) -> String {

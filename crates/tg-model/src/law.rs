@@ -10,6 +10,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::error::BuildError;
+
 /// How a cable answers to its length and rate of length.
 #[derive(Clone)]
 pub enum CableLaw {
@@ -63,6 +65,32 @@ impl CableLaw {
         Self::Slacking { stiffness, damping: 0.0 }
     }
 
+    /// Refuses κ or η that is negative or not finite.
+    pub(crate) fn check(&self, cable: &str) -> Result<(), BuildError> {
+        if let Self::Linear { stiffness, damping } | Self::Slacking { stiffness, damping } = *self {
+            not_negative(cable, "stiffness", stiffness)?;
+            not_negative(cable, "damping", damping)?;
+        }
+        Ok(())
+    }
+
+    /// Static tension at a length and rest length \[m\], taut or not as the law has it.
+    pub(crate) fn static_tension(&self, length: f64, rest: f64) -> f64 {
+        match self {
+            Self::Linear { stiffness, .. } => stiffness * (length - rest),
+            Self::Slacking { stiffness, .. } => (stiffness * (length - rest)).max(0.0),
+            Self::User(law) => law.tension(length, 0.0, rest).force,
+        }
+    }
+
+    /// κ of the linear laws \[N/m\].
+    pub(crate) fn linear_stiffness(&self) -> Option<f64> {
+        match *self {
+            Self::Linear { stiffness, .. } | Self::Slacking { stiffness, .. } => Some(stiffness),
+            Self::User(_) => None,
+        }
+    }
+
     /// The same law with damping η \[N s/m\]; a user's law keeps its own.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
@@ -71,6 +99,17 @@ impl CableLaw {
             Self::Slacking { stiffness, .. } => Self::Slacking { stiffness, damping },
             Self::User(law) => Self::User(law),
         }
+    }
+}
+
+/// Refuses a property of a cable that is negative or not finite.
+pub(crate) fn not_negative(name: &str, what: &'static str, value: f64) -> Result<(), BuildError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else if value.is_finite() {
+        Err(BuildError::OutOfRange { kind: "cable", name: name.into(), what, value, must: "not be negative" })
+    } else {
+        Err(BuildError::NotFinite { kind: "cable", name: name.into(), what })
     }
 }
 

@@ -23,6 +23,11 @@ impl Layout {
         Self { unknown, free: mechanics.free().to_vec(), constraints: sizes.constraints }
     }
 
+    /// The unknown that a coordinate is; `None` for prescribed ones.
+    pub fn unknown(&self, coordinate: usize) -> Option<usize> {
+        self.unknown[coordinate]
+    }
+
     /// Number of unknown coordinates.
     pub fn unknowns(&self) -> usize {
         self.free.len()

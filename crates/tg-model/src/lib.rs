@@ -59,9 +59,11 @@ mod report;
 mod signal;
 mod supports;
 mod tension;
+mod tensioned;
 
 pub use builder::ModelBuilder;
 pub use cables::CableState;
+pub use constraints::ConstraintSource;
 pub use error::{BuildError, PlaceError};
 pub use form::Form;
 pub use inertia::Inertia;
@@ -73,3 +75,4 @@ pub use parts::{AnchorId, CableId, Joining, LoadId, MemberId, Place, Redundancie
 pub use projector::{Moved, ProjectionError, Projector};
 pub use report::{BuildReport, Redundancy};
 pub use signal::{Signal, SignalError, SignalFn, Table};
+pub use tensioned::Tensioned;

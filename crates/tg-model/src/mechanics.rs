@@ -112,6 +112,10 @@ pub trait Mechanics: Send + Sync {
     /// Potential energy of the conservative forces \[J\].
     fn potential(&self, q: &[f64], u: &[f64]) -> f64;
 
+    /// Size \[N\] of the largest single force that F sums (a tension, a weight, a load): what residual forces are held
+    /// against, since F itself vanishes where forces balance.
+    fn force_scale(&self, at: At<'_>) -> f64;
+
     /// Name of a coordinate for messages.
     fn coordinate_name(&self, coordinate: usize) -> String {
         format!("coordinate {coordinate}")

@@ -1,14 +1,15 @@
 //! A structure after `build()`: immutable, shared by threads, everything precomputed.
 
 use nalgebra::SVector;
-use tg_coords::{CoordsError, PoseFit, Twist};
+use tg_coords::{CoordsError, Member, PoseFit, Twist};
 
 use crate::cables::{CableState, Cables, cable_state};
-use crate::constraints::Constraints;
+use crate::constraints::{ConstraintSource, Constraints};
 use crate::drive::Drive;
-use crate::error::PlaceError;
+use crate::error::{BuildError, PlaceError};
 use crate::form::{Form, node};
 use crate::inertia::Inertia;
+use crate::law::CableLaw;
 use crate::mechanics::{Entry, HessianEntry, Mechanics};
 use crate::parts::{AnchorId, CableId, LoadId, MemberId, Place};
 use crate::placed::{Cable, PlacedMember};
@@ -33,6 +34,7 @@ pub struct Model<const D: usize> {
     /// Redundant constraints that were left out.
     pub(crate) dropped: Constraints,
     pub(crate) constraint_names: Vec<String>,
+    pub(crate) constraint_sources: Vec<ConstraintSource>,
     pub(crate) node_names: Vec<String>,
     pub(crate) jacobian_pattern: Vec<(usize, usize)>,
     pub(crate) hessian: Vec<HessianEntry>,
@@ -214,6 +216,62 @@ impl<const D: usize> Model<D> {
     #[track_caller]
     pub fn cable_form(&self, cable: CableId) -> &Form<D> {
         &self.cables[cable.0].form
+    }
+
+    /// What each constraint belongs to, in the order of Φ.
+    pub fn constraint_sources(&self) -> &[ConstraintSource] {
+        &self.constraint_sources
+    }
+
+    /// Force of a member's own rigidity on each of its nodes, the part of Aᵀλ that its intrinsic constraints make
+    /// \[N\]; it balances what weight, cables and joints put on the member. `jacobian` holds the values of A in the order of
+    /// [`Mechanics::jacobian_pattern`].
+    #[track_caller]
+    pub fn rigidity_forces(
+        &self,
+        member: MemberId,
+        jacobian: &[f64],
+        lambda: &[f64],
+    ) -> Vec<SVector<f64, D>> {
+        let nodes = &self.members[member.0].nodes;
+        let mut forces = vec![SVector::zeros(); nodes.len()];
+        for (&(row, i), a) in self.jacobian_pattern.iter().zip(jacobian) {
+            if self.constraint_sources[row] == ConstraintSource::Rigidity(member)
+                && let Some(k) = nodes.iter().position(|&n| n == i / D)
+            {
+                forces[k][i % D] += a * lambda[row];
+            }
+        }
+        forces
+    }
+
+    /// A member's type of coordinates and mass.
+    #[track_caller]
+    pub fn member(&self, member: MemberId) -> &Member<D> {
+        &self.members[member.0].member
+    }
+
+    /// The constitutive law of a cable.
+    #[track_caller]
+    pub fn cable_law(&self, cable: CableId) -> &CableLaw {
+        &self.cables[cable.0].law
+    }
+
+    /// The same structure with another law for one cable; a parameter study in stiffness uses it.
+    ///
+    /// # Errors
+    /// κ or η is negative or not finite.
+    #[track_caller]
+    pub fn with_law(&self, cable: CableId, law: CableLaw) -> Result<Self, BuildError> {
+        law.check(&self.cables[cable.0].name)?;
+        let mut changed = self.clone();
+        changed.cables[cable.0].law = law;
+        let mut free = vec![false; self.initial.len()];
+        self.free.iter().for_each(|&i| free[i] = true);
+        changed.in_equations = Cables::of(&changed.cables, |i| free[i]);
+        changed.stiffness_pattern = changed.in_equations.stiffness_pattern::<D>();
+        changed.damping_pattern = changed.in_equations.damping_pattern::<D>();
+        Ok(changed)
     }
 
     /// Energies at full coordinates, velocities and inputs.

@@ -1,6 +1,6 @@
 //! Supports: which coordinates they prescribe, and whether they agree with each other and with the constraints.
 
-use crate::constraints::{Constraint, Constraints, Named};
+use crate::constraints::{Constraint, ConstraintSource, Constraints, Named};
 use crate::drive::Prescription;
 use crate::error::BuildError;
 use crate::form::Form;
@@ -30,6 +30,7 @@ impl<const D: usize> Supports<D> {
                     let scale = nodes.scale(parts, &[support.place]);
                     constraints.push(Named {
                         name: format!("support \"{}\"", support.name),
+                        source: ConstraintSource::Support { name: support.name.clone(), axis: support.axis },
                         constraint: Constraint::component(&gap, support.axis, scale),
                     });
                     hidden * D + support.axis

@@ -36,6 +36,7 @@
 //! | eq. (55), pattern of `[M − h²/2 ∂F/∂q, −A(q_k)ᵀ; A(q_{k+1}), 0]` | [`SaddlePattern::new`] |
 //! | its values | [`SaddleSystem::add_leading`], [`SaddleSystem::set_jacobian`] |
 //! | Newton correction `−Jac⁻¹ Res`, Alg. 1 | [`SaddleSystem::factor`], [`SaddleSystem::solve`] |
+//! | signs of the eigenvalues of the reduced Hessian | [`SaddleSystem::inertia`] |
 //! | rank of A, redundant constraints | [`dependent_rows`] |
 //!
 //! # When something is wrong
@@ -54,6 +55,7 @@
 mod elimination_tree;
 mod error;
 mod front;
+mod inertia;
 mod kernels;
 mod order;
 mod pattern;
@@ -69,6 +71,7 @@ mod static_lu;
 mod symbolic;
 
 pub use error::{EntryList, Row, SparseError};
+pub use inertia::Inertia;
 pub use pattern::SaddlePattern;
 pub use rank::{DependentRow, dependent_rows};
 pub use saddle::{Counts, SaddleSystem, SolveReport};

@@ -9,6 +9,7 @@
 //! `A₁ = Ǎ(q_{k+1})`.
 
 use crate::error::SparseError;
+use crate::inertia::{Inertia, from_pivots};
 use crate::pattern::SaddlePattern;
 use crate::pivot::{PivotRule, PivotTrouble};
 #[cfg(feature = "pivoting")]
@@ -228,6 +229,17 @@ impl SaddleSystem {
         self.counts.refinements += u64::from(refinements);
         let fell_back = self.factors == Factors::Pivoting;
         Ok(SolveReport { residual: outcome.error, refinements, fell_back })
+    }
+
+    /// Signs of the eigenvalues of `H` on the null space of `A`, from the pivots of the last
+    /// [`factor`](Self::factor). Meant for symmetric `H` and `A₀ = A₁` of full rank, which is not checked. `None` without
+    /// factors, or with those of the pivoting fallback, whose pivots do not tell.
+    #[must_use]
+    pub fn inertia(&self) -> Option<Inertia> {
+        match self.factors {
+            Factors::Static => from_pivots(&self.pattern, self.lu.reciprocal_pivots()),
+            Factors::None | Factors::Pivoting => None,
+        }
     }
 
     /// Solves and refines; the solution stays in `vectors`.

@@ -117,6 +117,11 @@ impl StaticLu {
         Ok(())
     }
 
+    /// `1/u_ii` of the last factorisation, in elimination order.
+    pub(crate) fn reciprocal_pivots(&self) -> &[f64] {
+        &self.inverse
+    }
+
     /// Pivot and `s_i` at a position.
     pub(crate) fn pivot(&self, position: usize) -> PivotTrouble {
         PivotTrouble { position, pivot: 1.0 / self.inverse[position], scale: self.scale[position] }
