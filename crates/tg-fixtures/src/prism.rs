@@ -31,18 +31,18 @@ pub fn prism(n: usize, tension: f64, gravity: f64, law: fn(f64) -> CableLaw) -> 
     let top = |k: usize| [(k as f64 * step + twist).cos(), (k as f64 * step + twist).sin(), 1.0];
     let distance =
         |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-    // Bar k runs from bottom k to top k, vertical cable k from bottom k + 1 to top k: force densities γ and -γ. The
+    // Vertical cable k runs from bottom k to top k, bar k from bottom k to top k + 1: force densities γ and -γ. The
     // radial balance of a node gives 2 sin(π/n) γ_ring = γ.
-    let vertical = distance(bottom(1), top(0));
+    let vertical = distance(bottom(0), top(0));
     let ring = distance(bottom(0), bottom(1));
     let density = tension / vertical;
     let forces =
-        [density / (2.0 * (PI / n as f64).sin()) * ring, tension, -density * distance(bottom(0), top(0))];
+        [density / (2.0 * (PI / n as f64).sin()) * ring, tension, -density * distance(bottom(0), top(1))];
 
     let mut b = ModelBuilder::<3>::new();
     b.gravity([0.0, 0.0, -gravity])?;
     let bars =
-        (0..n).map(|k| b.bar(&format!("bar {k}"), 1.0, bottom(k), top(k))).collect::<Result<Vec<_>, _>>()?;
+        (0..n).map(|k| b.bar(&format!("bar {k}"), 1.0, bottom(k), top(k + 1))).collect::<Result<Vec<_>, _>>()?;
     let mut cables = Vec::new();
     let rest = |length: f64, tension: f64| length - tension / STIFFNESS;
     for (name, end) in [("bottom", 0), ("top", 1)] {
@@ -58,7 +58,7 @@ pub fn prism(n: usize, tension: f64, gravity: f64, law: fn(f64) -> CableLaw) -> 
         }
     }
     for k in 0..n {
-        let ends = (bars[(k + 1) % n].node(0), bars[k].node(1));
+        let ends = (bars[k].node(0), bars[(k + n - 1) % n].node(1));
         cables.push(b.cable(
             &format!("vertical {k}"),
             ends.0,

@@ -56,7 +56,7 @@ pub fn spine(count: usize, tension: f64, damping: f64) -> Result<Spine, BuildErr
     let axes = [[0.0, 0.0, HEIGHT], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], [0.0, 0.0, 0.1]].map(Vector3::from);
     let (mut bodies, mut cables) = (Vec::new(), Vec::new());
     for i in 0..count {
-        let member = Member::new(CoordType::Ruvw, &axes, properties.clone()).map_err(mass)?;
+        let member = Member::new(CoordType::Ruvw, &axes, properties).map_err(mass)?;
         let pose = Pose::translation(Vector3::new(0.0, 0.0, RISE * (i + 1) as f64));
         let body = b.member(&format!("vertebra {i}"), member, pose)?;
         let upper: Vec<Place<3>> = (0..3).map(|k| body.at(corner(k, 0.0))).chain([body.at(apex)]).collect();

@@ -33,9 +33,7 @@ impl Configuration {
     /// # Errors
     /// A force is not finite, or A has dependent rows.
     pub fn at(mechanics: &dyn Mechanics, q: &[f64], u: &[f64]) -> Result<Self, TangentError> {
-        const DOING: &str = "finding the multipliers of a configuration";
         let sizes = mechanics.sizes();
-        let layout = Layout::new(mechanics);
         let rest = vec![0.0; sizes.coordinates];
         let at = At { q, v: &rest, u, taut: None };
         let mut force = rest.clone();
@@ -44,20 +42,10 @@ impl Configuration {
         if let Some(&i) = not_finite {
             return Err(TangentError::NotFinite { what: "the force", culprit: mechanics.coordinate_name(i) });
         }
-        let free = mechanics.free().iter();
-        let mut x: Vec<f64> = free.map(|&i| force[i]).chain(vec![0.0; sizes.constraints]).collect();
-        let diagonal: Vec<_> = mechanics.free().iter().map(|&i| (i, i)).collect();
-        let named = |source| TangentError::sparse(DOING, &layout, mechanics, source);
-        let mut system = SaddleSystem::new(layout.saddle(mechanics, &[&diagonal]).map_err(named)?);
-        let mut jacobian = vec![0.0; mechanics.jacobian_pattern().len()];
-        mechanics.jacobian(q, &mut jacobian);
-        system.add_leading(0, 1.0, &vec![1.0; diagonal.len()]);
-        system.set_jacobian(&jacobian, &jacobian);
-        system.factor().map_err(named)?;
-        system.solve(&mut x).map_err(named)?;
-        let lambda = x.split_off(layout.unknowns());
+        let force: Vec<f64> = mechanics.free().iter().map(|&i| force[i]).collect();
+        let (lambda, residual) = balance(mechanics, q, &force)?;
         let force_scale = mechanics.force_scale(at);
-        Ok(Self { q: q.to_vec(), u: u.to_vec(), lambda, residual: x, force_scale })
+        Ok(Self { q: q.to_vec(), u: u.to_vec(), lambda, residual, force_scale })
     }
 
     /// Largest residual force per largest force, and the place of it among the free coordinates: zero in equilibrium.
@@ -69,4 +57,31 @@ impl Configuration {
         let (largest, k) = self.residual.iter().enumerate().fold((0.0, 0), worst);
         (if largest == 0.0 { 0.0 } else { largest / self.force_scale }, k)
     }
+}
+
+/// The multipliers λ that balance forces on the free coordinates best, and the residual force F + Aᵀλ.
+///
+/// # Errors
+/// A has dependent rows, or is not finite.
+pub fn balance(
+    mechanics: &dyn Mechanics,
+    q: &[f64],
+    force: &[f64],
+) -> Result<(Vec<f64>, Vec<f64>), TangentError> {
+    let layout = Layout::new(mechanics);
+    let named = |source| {
+        TangentError::sparse("finding the multipliers of a configuration", &layout, mechanics, source)
+    };
+    let diagonal: Vec<_> = mechanics.free().iter().map(|&i| (i, i)).collect();
+    let mut system = SaddleSystem::new(layout.saddle(mechanics, &[&diagonal]).map_err(named)?);
+    let mut jacobian = vec![0.0; mechanics.jacobian_pattern().len()];
+    mechanics.jacobian(q, &mut jacobian);
+    system.add_leading(0, 1.0, &vec![1.0; diagonal.len()]);
+    system.set_jacobian(&jacobian, &jacobian);
+    system.factor().map_err(named)?;
+    let mut x = force.to_vec();
+    x.resize(system.pattern().size(), 0.0);
+    system.solve(&mut x).map_err(named)?;
+    let lambda = x.split_off(layout.unknowns());
+    Ok((lambda, x))
 }

@@ -28,12 +28,15 @@ pub fn svd(x: &Mat<f64>) -> Result<Svd, TangentError> {
     })
 }
 
+/// Real eigenvalues, ascending, and eigenvectors (columns).
+pub type RealEigen = (Vec<f64>, Mat<f64>);
+
 /// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose upper and lower halves
 /// are averaged.
 ///
 /// # Errors
 /// The decomposition does not converge.
-pub fn symmetric_eigen(x: &Mat<f64>) -> Result<(Vec<f64>, Mat<f64>), TangentError> {
+pub fn symmetric_eigen(x: &Mat<f64>) -> Result<RealEigen, TangentError> {
     let symmetric = Mat::from_fn(x.nrows(), x.ncols(), |r, c| 0.5 * (x[(r, c)] + x[(c, r)]));
     let eigen = symmetric
         .self_adjoint_eigen(Side::Lower)
@@ -55,7 +58,7 @@ pub fn eigen(x: &Mat<f64>) -> Result<(Vec<c64>, Mat<c64>), TangentError> {
 ///
 /// # Errors
 /// The decomposition does not converge.
-pub fn generalized_eigen(k: &Mat<f64>, w: &Mat<f64>) -> Result<Option<(Vec<f64>, Mat<f64>)>, TangentError> {
+pub fn generalized_eigen(k: &Mat<f64>, w: &Mat<f64>) -> Result<Option<RealEigen>, TangentError> {
     // Far enough from singular that the reduction keeps half of the digits.
     const DEFINITE: f64 = 1e-14;
     let Ok(cholesky) = w.llt(Side::Lower) else { return Ok(None) };

@@ -12,7 +12,8 @@ pub struct Entries {
 }
 
 impl Entries {
-    pub(crate) fn new(
+    /// A matrix of this size from entries; an entry without row or column (at a prescribed coordinate) falls out.
+    pub fn new(
         rows: usize,
         columns: usize,
         list: impl IntoIterator<Item = (Option<usize>, Option<usize>, f64)>,

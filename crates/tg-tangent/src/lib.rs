@@ -17,11 +17,13 @@
 //! | N, (32), (41b) | null space of A and its rank | [`NullSpace`] |
 //! | `Aᵀ P A` | regular leading block without pivoting | [`Augmentation`] |
 //! | (42), (43) | reduced matrices | [`Reduced`] |
+//! | `[K, -Aᵀ; A, 0]`, `[M, -Aᵀ; A, 0]` | linear response under the constraints | [`Constrained`] |
 //! | (44) | lowest eigenpairs, inertia | [`lowest`], [`Spectrum`] |
 
 mod augmentation;
 mod certified;
 mod configuration;
+mod constrained;
 pub mod dense;
 mod eigen;
 mod entries;
@@ -33,7 +35,8 @@ mod shift_invert;
 mod tangent;
 
 pub use augmentation::Augmentation;
-pub use configuration::Configuration;
+pub use configuration::{Configuration, balance};
+pub use constrained::Constrained;
 pub use eigen::{Counts, EigenOptions, EigenPair, Method, Metric, Sign, Spectrum, lowest};
 pub use entries::Entries;
 pub use error::TangentError;

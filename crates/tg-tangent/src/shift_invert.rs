@@ -107,9 +107,24 @@ impl<'m> ShiftInvert<'m> {
 
     /// `x` of `[K - σW, -Aᵀ; A, 0] [x; y] = [b; 0]`.
     pub(crate) fn solve(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), TangentError> {
+        self.rhs[b.len()..].fill(0.0);
+        self.solve_with(b, x)
+    }
+
+    /// `x` of `[K - σW, -Aᵀ; A, 0] [x; y] = [b; g]`.
+    pub(crate) fn solve_constrained(
+        &mut self,
+        b: &[f64],
+        g: &[f64],
+        x: &mut [f64],
+    ) -> Result<(), TangentError> {
+        self.rhs[b.len()..].copy_from_slice(g);
+        self.solve_with(b, x)
+    }
+
+    fn solve_with(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), TangentError> {
         let n = b.len();
         self.rhs[..n].copy_from_slice(b);
-        self.rhs[n..].fill(0.0);
         let result = self.system.solve(&mut self.rhs);
         result.map_err(|source| {
             TangentError::sparse("solving with the tangent", &self.layout, self.mechanics, source)

@@ -1,0 +1,258 @@
+//! Forward statics: equilibrium from a start configuration.
+//!
+//! ```text
+//! F(q, u) + A(q)ᵀ λ = 0,   Φ(q) = 0          (31)
+//! ```
+//! Newton's method with a line search comes first ([`crate::newton`]), in load steps if asked; where it ends before
+//! equilibrium, dynamic relaxation brings the structure near a minimum of its energy and Newton's method finishes. Rigid
+//! motions that supports and loads leave free are gauged: the structure settles where it stands.
+
+use tg_model::{At, Tensioned};
+use tg_tangent::{Configuration, EigenOptions, Metric, Sign, TangentError, balance, lowest};
+
+use crate::forward_error::ForwardError;
+use crate::gauge::held_coordinates;
+use crate::newton::{NewtonRun, newton};
+use crate::newton_system::NewtonSystem;
+use crate::relaxation::Relaxation;
+use crate::rigid::RigidMotions;
+
+/// Residual forces at which relaxation hands over to Newton's method, one after the other.
+const HANDOVERS: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
+/// Steps of relaxation for each.
+const RELAXATION_STEPS: u32 = 20_000;
+/// Smallest part of a load step before Newton's method is given up on it.
+const SMALLEST_STEP: f64 = 1.0 / 1024.0;
+/// Displacement along an unstable shape, per size of the structure, from which relaxation leaves an unstable
+/// equilibrium.
+const NUDGE: f64 = 1e-2;
+const MOST_NUDGES: u32 = 8;
+
+/// Which equilibrium is wanted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Seek {
+    /// The one that Newton's method reaches, stable or not.
+    #[default]
+    Any,
+    /// One without negative eigenvalue of the reduced Hessian.
+    Stable,
+}
+
+/// Settings of forward statics.
+#[derive(Clone, Copy, Debug)]
+pub struct ForwardOptions {
+    /// Residual force per largest force at which forces balance. Rounding leaves some 1e-15; 1e-12 is reached by every
+    /// structure in the tests.
+    pub tolerance: f64,
+    /// Newton iterations per load step. From near, four or five do; a far start takes some tens.
+    pub max_iterations: u32,
+    /// Which equilibrium is wanted.
+    pub seek: Seek,
+    /// Whether dynamic relaxation may take over.
+    pub relax: bool,
+    /// Load steps of [`Forward::solve_from`].
+    pub load_steps: u32,
+}
+
+impl Default for ForwardOptions {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, max_iterations: 60, seek: Seek::Any, relax: true, load_steps: 1 }
+    }
+}
+
+/// What it took to find an equilibrium.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForwardReport {
+    /// Newton iterations, all load steps together.
+    pub iterations: u32,
+    /// Load steps that were accepted.
+    pub load_steps: u32,
+    /// Steps of dynamic relaxation; zero where Newton's method sufficed.
+    pub relaxation_steps: u32,
+    /// Stops at peaks of kinetic energy.
+    pub relaxation_stops: u32,
+    /// Unstable equilibria that were left on the way to a stable one.
+    pub left_unstable: u32,
+    /// Rigid motions without stiffness, gauged.
+    pub gauged: usize,
+    /// Systems that needed the pivoting factorisation.
+    pub fallbacks: u64,
+    /// Residual force per largest force.
+    pub residual: f64,
+    /// Scaled violation of the constraints.
+    pub constraint_residual: f64,
+}
+
+/// An equilibrium and how it was found.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// Coordinates, inputs, multipliers.
+    pub configuration: Configuration,
+    /// What it took.
+    pub report: ForwardReport,
+}
+
+/// Forward statics of one structure.
+pub struct Forward<'s> {
+    structure: &'s dyn Tensioned,
+    options: ForwardOptions,
+}
+
+impl<'s> Forward<'s> {
+    /// Forward statics with these settings.
+    pub fn new(structure: &'s dyn Tensioned, options: ForwardOptions) -> Self {
+        Self { structure, options }
+    }
+
+    /// The equilibrium at inputs `u`, from full coordinates `q`, whose prescribed components stay.
+    ///
+    /// # Errors
+    /// No equilibrium is reached; the error keeps the last configuration.
+    pub fn solve(&self, q: &[f64], u: &[f64]) -> Result<Equilibrium, ForwardError> {
+        self.solve_from(q, u, u)
+    }
+
+    /// The equilibrium at inputs `to`, in [`ForwardOptions::load_steps`] equal steps from inputs `from`, which `q` should
+    /// be in equilibrium with or near to. Steps that fail are halved.
+    ///
+    /// # Errors
+    /// As [`Forward::solve`].
+    pub fn solve_from(&self, q: &[f64], from: &[f64], to: &[f64]) -> Result<Equilibrium, ForwardError> {
+        let mut walk = Walk::new(self.structure, &self.options, q, from)?;
+        let mix = |s: f64| -> Vec<f64> { from.iter().zip(to).map(|(a, b)| a + s * (b - a)).collect() };
+        let (mut done, mut step) = (0.0, 1.0 / f64::from(self.options.load_steps.max(1)));
+        while done < 1.0 {
+            let next = if done + step > 1.0 - 1e-9 { 1.0 } else { done + step };
+            let u = if next == 1.0 { to.to_vec() } else { mix(next) };
+            if walk.newton(&u)? {
+                done = next;
+                walk.report.load_steps += 1;
+            } else if step > SMALLEST_STEP && from != to {
+                step *= 0.5;
+            } else if self.options.relax && walk.relax(&u)? {
+                done = next;
+                walk.report.load_steps += 1;
+            } else {
+                return Err(walk.failure(&u, next)?);
+            }
+        }
+        if self.options.seek == Seek::Stable {
+            walk.settle(to)?;
+        }
+        walk.finish(to)
+    }
+}
+
+/// The state of one search.
+struct Walk<'s> {
+    structure: &'s dyn Tensioned,
+    options: ForwardOptions,
+    system: NewtonSystem<'s>,
+    q: Vec<f64>,
+    lambda: Vec<f64>,
+    last: NewtonRun,
+    report: ForwardReport,
+}
+
+impl<'s> Walk<'s> {
+    fn new(
+        structure: &'s dyn Tensioned,
+        options: &ForwardOptions,
+        q: &[f64],
+        u: &[f64],
+    ) -> Result<Self, ForwardError> {
+        let start = Configuration::at(structure.mechanics(), q, u)?;
+        let system = NewtonSystem::new(structure, held_coordinates(structure, q, u)?, false)?;
+        let report = ForwardReport { gauged: system.gauged(), ..ForwardReport::default() };
+        let last = NewtonRun { iterations: 0, residual: Default::default(), converged: false };
+        Ok(Self { structure, options: *options, system, q: q.to_vec(), lambda: start.lambda, last, report })
+    }
+
+    /// Newton's method at inputs `u`; where it does not converge, the state stays as it was.
+    fn newton(&mut self, u: &[f64]) -> Result<bool, ForwardError> {
+        let (mut q, mut lambda) = (self.q.clone(), self.lambda.clone());
+        let ForwardOptions { tolerance, max_iterations, .. } = self.options;
+        let run = newton(&mut self.system, &mut q, u, &mut lambda, tolerance, max_iterations)?;
+        self.report.iterations += run.iterations;
+        self.last = run;
+        if run.converged {
+            (self.q, self.lambda) = (q, lambda);
+        }
+        Ok(run.converged)
+    }
+
+    /// Relaxes, with attempts of Newton's method on the way; whether one converged.
+    fn relax(&mut self, u: &[f64]) -> Result<bool, ForwardError> {
+        let mut relaxation = Relaxation::new(self.structure)?;
+        let mut found = false;
+        for target in HANDOVERS {
+            let arrived = relaxation.run(&mut self.q, u, target, RELAXATION_STEPS);
+            self.report.relaxation_steps = self.report.relaxation_steps.max(relaxation.steps);
+            self.report.relaxation_stops = self.report.relaxation_stops.max(relaxation.stops);
+            let arrived = arrived?;
+            let force = self.free_force(u);
+            self.lambda = balance(self.structure.mechanics(), &self.q, &force)?.0;
+            self.system =
+                NewtonSystem::new(self.structure, held_coordinates(self.structure, &self.q, u)?, false)?;
+            self.report.gauged = self.system.gauged();
+            found = self.newton(u)?;
+            if found || !arrived {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Leaves unstable equilibria downhill until one is stable.
+    fn settle(&mut self, u: &[f64]) -> Result<(), ForwardError> {
+        for _ in 0..MOST_NUDGES {
+            let at = Configuration::at(self.structure.mechanics(), &self.q, u)?;
+            let spectrum =
+                lowest(self.structure.mechanics(), &at, &EigenOptions::new(1, Metric::Coordinates))?;
+            let Some(pair) = spectrum.pairs.first().filter(|pair| pair.sign == Sign::Negative) else {
+                return Ok(());
+            };
+            self.report.left_unstable += 1;
+            let scales = self.structure.mechanics().constraint_scales();
+            let size = scales.iter().fold(0.0_f64, |a, s| a.max(s.sqrt())).max(f64::MIN_POSITIVE);
+            self.q.iter_mut().zip(&pair.shape).for_each(|(q, x)| *q += NUDGE * size * x);
+            if !self.relax(u)? {
+                return Err(self.failure(u, 1.0)?);
+            }
+        }
+        Err(self.failure(u, 1.0)?)
+    }
+
+    fn free_force(&self, u: &[f64]) -> Vec<f64> {
+        let mechanics = self.structure.mechanics();
+        let rest = vec![0.0; self.q.len()];
+        let mut force = rest.clone();
+        mechanics.force(At { q: &self.q, v: &rest, u, taut: None }, &mut force);
+        mechanics.free().iter().map(|&i| force[i]).collect()
+    }
+
+    fn finish(mut self, u: &[f64]) -> Result<Equilibrium, ForwardError> {
+        let configuration = Configuration::at(self.structure.mechanics(), &self.q, u)?;
+        self.report.fallbacks = self.system.fallbacks();
+        self.report.residual = configuration.imbalance().0;
+        self.report.constraint_residual = self.last.residual.constraint;
+        Ok(Equilibrium { configuration, report: self.report })
+    }
+
+    /// The error, with its likely cause.
+    fn failure(&self, u: &[f64], reached: f64) -> Result<ForwardError, TangentError> {
+        let mechanics = self.structure.mechanics();
+        let at = Configuration::at(mechanics, &self.q, u)?;
+        let (residual, worst) = at.imbalance();
+        let free = RigidMotions::free(self.structure, &self.q)?;
+        let gauged = free.without_work(self.structure, &self.q, u)?.count();
+        Ok(ForwardError::NotReached {
+            residual,
+            coordinate: mechanics.coordinate_name(mechanics.free()[worst]),
+            load: reached,
+            loaded_rigid_motions: free.count() - gauged,
+            last: Box::new(at),
+            report: Box::new(self.report),
+        })
+    }
+}

@@ -1,0 +1,98 @@
+//! Linear and convex quadratic programmes, solved by Clarabel (interior points).
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use thiserror::Error;
+
+/// Why a programme has no solution.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum ProgramError {
+    /// No point satisfies all bounds.
+    #[error("the bounds contradict each other")]
+    Infeasible,
+    /// The objective has no lower bound.
+    #[error("the objective is unbounded; bound the tensions from above")]
+    Unbounded,
+    /// The solver gave up.
+    #[error(
+        "the interior-point solver stopped with {status}; scale the bounds to the tensions that the structure carries"
+    )]
+    Solver {
+        /// Its status.
+        status: String,
+    },
+}
+
+/// Minimise `½ Σ w_k (x_k - target_k)² + cᵀx` subject to rows `aᵀx ≤ b`.
+#[derive(Clone, Debug)]
+pub(crate) struct Program {
+    weight: Vec<f64>,
+    cost: Vec<f64>,
+    entries: Vec<(usize, usize, f64)>,
+    bounds: Vec<f64>,
+}
+
+impl Program {
+    pub(crate) fn new(variables: usize) -> Self {
+        Self {
+            weight: vec![0.0; variables],
+            cost: vec![0.0; variables],
+            entries: Vec::new(),
+            bounds: Vec::new(),
+        }
+    }
+
+    /// Adds `c x_k` to the objective.
+    pub(crate) fn cost(&mut self, k: usize, c: f64) {
+        self.cost[k] += c;
+    }
+
+    /// Adds `½ (x_k - target)²` to the objective.
+    pub(crate) fn near(&mut self, k: usize, target: f64) {
+        self.weight[k] += 1.0;
+        self.cost[k] -= target;
+    }
+
+    pub(crate) fn at_most(&mut self, row: &[(usize, f64)], bound: f64) {
+        let at = self.bounds.len();
+        self.entries.extend(row.iter().map(|&(k, a)| (at, k, a)));
+        self.bounds.push(bound);
+    }
+
+    pub(crate) fn at_least(&mut self, row: &[(usize, f64)], bound: f64) {
+        let negative: Vec<_> = row.iter().map(|&(k, a)| (k, -a)).collect();
+        self.at_most(&negative, -bound);
+    }
+
+    pub(crate) fn between(&mut self, row: &[(usize, f64)], low: f64, high: f64) {
+        self.at_least(row, low);
+        self.at_most(row, high);
+    }
+
+    pub(crate) fn solve(&self) -> Result<Vec<f64>, ProgramError> {
+        let n = self.weight.len();
+        let diagonal: Vec<usize> = (0..n).collect();
+        let quadratic = CscMatrix::new_from_triplets(n, n, diagonal.clone(), diagonal, self.weight.clone());
+        let rows = self.entries.iter().map(|e| e.0).collect();
+        let columns = self.entries.iter().map(|e| e.1).collect();
+        let values = self.entries.iter().map(|e| e.2).collect();
+        let matrix = CscMatrix::new_from_triplets(self.bounds.len(), n, rows, columns, values);
+        let cones = [SupportedConeT::NonnegativeConeT(self.bounds.len())];
+        let solver = |status: String| ProgramError::Solver { status };
+        let settings = DefaultSettingsBuilder::default()
+            .verbose(false)
+            .build()
+            .map_err(|error| solver(error.to_string()))?;
+        let mut program = DefaultSolver::new(&quadratic, &self.cost, &matrix, &self.bounds, &cones, settings)
+            .map_err(|error| solver(error.to_string()))?;
+        program.solve();
+        match program.solution.status {
+            SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(program.solution.x.clone()),
+            SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
+                Err(ProgramError::Infeasible)
+            }
+            SolverStatus::DualInfeasible | SolverStatus::AlmostDualInfeasible => Err(ProgramError::Unbounded),
+            other => Err(solver(other.to_string())),
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Integration tests of tg-statics, one module per subject in one program.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod prism;
+mod structures;
