@@ -13,13 +13,15 @@ pub const EXACT: &str = "reference values, minimal coordinates";
 /// Source named in rows that compare with the discrete scheme.
 pub const SCHEME: &str = "reference values of the scheme";
 
-/// Everything that the planar examples use.
+/// Everything that the examples use.
 #[derive(Debug, Deserialize)]
 pub struct Framework {
     /// Double pendulum.
     pub example1: Example1,
     /// Class-3 tower.
     pub example2: Example2,
+    /// Spatial deployable tower.
+    pub example3: Example3,
 }
 
 /// Reference values of example 1.
@@ -90,6 +92,100 @@ pub struct Path {
     pub x: Vec<f64>,
     /// y \[m\].
     pub y: Vec<f64>,
+}
+
+/// Reference values of example 3.
+#[derive(Debug, Deserialize)]
+pub struct Example3 {
+    /// The folded state.
+    pub initial: Upright,
+    /// The unfolded state.
+    pub target: Upright,
+    /// Scalar mass matrices by member.
+    #[serde(rename = "mass_matrices_scalar")]
+    pub masses: BTreeMap<String, Vec<Vec<f64>>>,
+    /// The scheme's first steps at h = 1e-3 s from the initial state at ν = 0.5 Hz: mass centres \[m\] by tetrahedron,
+    /// the start included.
+    #[serde(rename = "scheme_first_steps_h1e-3_seis_initial_nu0.5")]
+    pub first_steps: BTreeMap<String, Vec<[f64; 3]>>,
+    /// The seismic run from the initial state at ν = 0.5 Hz.
+    #[serde(rename = "seismic initial nu=0.5")]
+    pub seismic: Top,
+    /// The deployment in 10 s at ν = 0.5 Hz.
+    #[serde(rename = "deployment Td=10 nu=0.5")]
+    pub deployment: Deployment,
+}
+
+/// One of the two static states of example 3.
+#[derive(Debug, Deserialize)]
+pub struct Upright {
+    /// Lowest natural frequencies \[Hz\], ascending.
+    #[serde(rename = "freq")]
+    pub frequencies: Vec<f64>,
+    /// Rest lengths μ of cables 1 to 24 \[m\].
+    #[serde(rename = "mu")]
+    pub rest: [f64; 24],
+    /// Lengths of cables 1 to 24 \[m\].
+    #[serde(rename = "l0")]
+    pub lengths: [f64; 24],
+    /// Tensions of cables 1 to 24 \[N\].
+    #[serde(rename = "tension")]
+    pub tensions: [f64; 24],
+    /// Where everything stands.
+    pub nodes: Nodes,
+}
+
+/// Points of one of the two states of example 3 \[m\].
+#[derive(Debug, Deserialize)]
+pub struct Nodes {
+    /// Ground points G_1 to G_3.
+    pub ground: [[f64; 3]; 3],
+    /// Ring points R_1 to R_3.
+    #[serde(rename = "ring2_all")]
+    pub ring: [[f64; 3]; 3],
+    /// Tetrahedra by number.
+    #[serde(rename = "tets")]
+    pub tetrahedra: BTreeMap<u8, Tetrahedron>,
+}
+
+/// Points of a tetrahedron \[m\].
+#[derive(Debug, Deserialize)]
+pub struct Tetrahedron {
+    /// p_1.
+    pub apex: [f64; 3],
+    /// p_2 to p_4.
+    pub base: [[f64; 3]; 3],
+    /// Mass centre.
+    pub mass_centre: [f64; 3],
+}
+
+/// Path of the mass centre of tetrahedron 10 in the vertical plane of the ground's motion.
+#[derive(Debug, Deserialize)]
+pub struct Top {
+    /// Times \[s\].
+    pub t: Vec<f64>,
+    /// x \[m\].
+    #[serde(rename = "x10")]
+    pub x: Vec<f64>,
+    /// z \[m\].
+    #[serde(rename = "z10")]
+    pub z: Vec<f64>,
+    /// Largest error of the scheme at h = 1e-3 s \[m\], where it is known.
+    #[serde(rename = "scheme_error_h1e-3")]
+    pub error: Option<f64>,
+}
+
+/// A deployment that collapses.
+#[derive(Debug, Deserialize)]
+pub struct Deployment {
+    /// Path before the collapse.
+    #[serde(flatten)]
+    pub top: Top,
+    /// Time at which the mass centre of tetrahedron 10 falls below z = 0.12 m \[s\].
+    #[serde(rename = "z10_below_0.12_at")]
+    pub collapse: f64,
+    /// Numbers of the cables that are slack at t = 10 s.
+    pub slack_at_10s: Vec<usize>,
 }
 
 /// The reference values.

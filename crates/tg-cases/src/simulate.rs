@@ -62,6 +62,35 @@ pub fn record<const D: usize, T>(
     Ok(seen)
 }
 
+/// Runs from the initial configuration at rest until `height` has become negative, at the latest until `end`, showing
+/// every accepted state; the time of the crossing \[s\], interpolated linearly.
+///
+/// # Errors
+/// The run cannot start, or fails before the crossing.
+pub fn until_negative<const D: usize>(
+    model: &Model<D>,
+    h: f64,
+    end: f64,
+    height: impl Fn(&State) -> f64,
+    mut watch: impl FnMut(&State),
+) -> Result<Option<f64>, CaseError> {
+    let mut stepper = Symplectic::new(model, NewtonOptions::default())?;
+    let mut state = start(model, &mut stepper)?;
+    let (mut before, mut crossing) = ((state.t, height(&state)), None);
+    Run::new(h, end)
+        .observe(&mut |state: &State, _: &StepReport| watch(state))
+        .stop_when(|state| {
+            let now = (state.t, height(state));
+            if now.1 < 0.0 {
+                crossing = Some(before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1));
+            }
+            before = now;
+            crossing.is_some()
+        })
+        .go(&mut stepper, &mut state)?;
+    Ok(crossing)
+}
+
 /// Observed order of convergence from errors at successive halvings of the step: the mean slope.
 pub fn order(errors: &[f64]) -> f64 {
     match (errors.first(), errors.last()) {

@@ -1,5 +1,18 @@
 //! When cables were slack during a run.
 
+use tg_integrate::State;
+use tg_model::Model;
+
+/// Lengths less rest lengths of all cables \[m\]: slack where negative.
+pub fn stretches<const D: usize>(model: &Model<D>, state: &State) -> Vec<f64> {
+    let u = model.inputs_at(state.t);
+    let stretch = |cable| {
+        let cable = model.cable(cable, &state.q, &state.v, &u);
+        cable.length - cable.rest
+    };
+    model.cables().map(stretch).collect()
+}
+
 /// A time during which one cable was shorter than its rest length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlackInterval {

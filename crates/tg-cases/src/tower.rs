@@ -8,6 +8,7 @@ use tg_model::{BuildError, CableId, CableLaw, Form, Joining, MemberId, Model, Mo
 
 use crate::error::CaseError;
 use crate::plane::{BAR_MASS, G, SPLIT, triangle, vertex};
+use crate::slack;
 
 /// Cable setups of Sec. 6.2.2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,12 +188,7 @@ impl Tower {
 
     /// Lengths less rest lengths of cables 1 to 12 \[m\]: slack where negative.
     pub fn stretches(&self, state: &State) -> Vec<f64> {
-        let u = self.model.inputs_at(state.t);
-        let stretch = |&cable: &CableId| {
-            let cable = self.model.cable(cable, &state.q, &state.v, &u);
-            cable.length - cable.rest
-        };
-        self.cables.iter().map(stretch).collect()
+        slack::stretches(&self.model, state)
     }
 
     /// Height of the lowest vertex of a triangle \[m\].

@@ -147,7 +147,7 @@ impl<'s> Forward<'s> {
 struct Walk<'s> {
     structure: &'s dyn Tensioned,
     options: ForwardOptions,
-    system: NewtonSystem<'s>,
+    system: NewtonSystem,
     q: Vec<f64>,
     lambda: Vec<f64>,
     last: NewtonRun,
@@ -162,7 +162,7 @@ impl<'s> Walk<'s> {
         u: &[f64],
     ) -> Result<Self, ForwardError> {
         let start = Configuration::at(structure.mechanics(), q, u)?;
-        let system = NewtonSystem::new(structure, held_coordinates(structure, q, u)?, false)?;
+        let system = NewtonSystem::new(structure.mechanics(), held_coordinates(structure, q, u)?, false)?;
         let report = ForwardReport { gauged: system.gauged(), ..ForwardReport::default() };
         let last = NewtonRun { iterations: 0, residual: Default::default(), converged: false };
         Ok(Self { structure, options: *options, system, q: q.to_vec(), lambda: start.lambda, last, report })
@@ -172,7 +172,15 @@ impl<'s> Walk<'s> {
     fn newton(&mut self, u: &[f64]) -> Result<bool, ForwardError> {
         let (mut q, mut lambda) = (self.q.clone(), self.lambda.clone());
         let ForwardOptions { tolerance, max_iterations, .. } = self.options;
-        let run = newton(&mut self.system, &mut q, u, &mut lambda, tolerance, max_iterations)?;
+        let run = newton(
+            &mut self.system,
+            self.structure.mechanics(),
+            &mut q,
+            u,
+            &mut lambda,
+            tolerance,
+            max_iterations,
+        )?;
         self.report.iterations += run.iterations;
         self.last = run;
         if run.converged {
@@ -191,9 +199,9 @@ impl<'s> Walk<'s> {
             self.report.relaxation_stops = self.report.relaxation_stops.max(relaxation.stops);
             let arrived = arrived?;
             let force = self.free_force(u);
-            self.lambda = balance(self.structure.mechanics(), &self.q, &force)?.0;
-            self.system =
-                NewtonSystem::new(self.structure, held_coordinates(self.structure, &self.q, u)?, false)?;
+            let mechanics = self.structure.mechanics();
+            self.lambda = balance(mechanics, &self.q, &force)?.0;
+            self.system = NewtonSystem::new(mechanics, held_coordinates(self.structure, &self.q, u)?, false)?;
             self.report.gauged = self.system.gauged();
             found = self.newton(u)?;
             if found || !arrived {

@@ -1,7 +1,11 @@
 //! Statics.
 #![allow(missing_docs)]
+mod branch;
 mod cable_equilibrium;
+mod continuation;
+mod continuation_error;
 mod cutting_list;
+mod family;
 mod forward;
 mod forward_error;
 mod gauge;
@@ -18,7 +22,11 @@ mod rigid;
 mod self_stress;
 mod stability;
 
+pub use branch::{Branch, BranchEnd, BranchPoint, Event, EventKind};
+pub use continuation::{ContinuationOptions, continuation};
+pub use continuation_error::ContinuationError;
 pub use cutting_list::CuttingRow;
+pub use family::{Family, InputFamily, Instance, StiffnessFamily};
 pub use forward::{Equilibrium, Forward, ForwardOptions, ForwardReport, Seek};
 pub use forward_error::ForwardError;
 pub use inverse::{Answer, InverseStatics, SolutionSet};

@@ -6,7 +6,7 @@
 //! The Newton direction lowers it by twice itself per unit step. Where the matrix is singular, or no step along the
 //! direction lowers the merit, a multiple of the identity is added to K until one does (Levenberg).
 
-use tg_model::At;
+use tg_model::{At, Mechanics};
 use tg_tangent::TangentError;
 
 use crate::newton_system::{NewtonSystem, Residual};
@@ -34,21 +34,21 @@ pub(crate) struct NewtonRun {
 
 /// Improves `q` (free components) and `lambda` until forces balance to `tolerance` of the largest force.
 pub(crate) fn newton(
-    system: &mut NewtonSystem<'_>,
+    system: &mut NewtonSystem,
+    mechanics: &dyn Mechanics,
     q: &mut [f64],
     u: &[f64],
     lambda: &mut [f64],
     tolerance: f64,
     most: u32,
 ) -> Result<NewtonRun, TangentError> {
-    let mechanics = system.mechanics();
     let rest = vec![0.0; q.len()];
     let reach = 0.5 * mechanics.constraint_scales().iter().fold(0.0_f64, |a, s| a.max(s.sqrt()));
     let (mut trial_q, mut trial_lambda) = (q.to_vec(), lambda.to_vec());
     let mut iterations = 0;
     loop {
         let scale = mechanics.force_scale(At { q, v: &rest, u, taut: None }).max(f64::MIN_POSITIVE);
-        let residual = system.evaluate(q, u, lambda, scale);
+        let residual = system.evaluate(mechanics, q, u, lambda, scale);
         let made = iterations;
         let run = |converged| Ok(NewtonRun { iterations: made, residual, converged });
         if residual.force <= tolerance && residual.constraint <= CONSISTENT {
@@ -61,14 +61,14 @@ pub(crate) fn newton(
         let mut shift = 0.0;
         let mut accepted = false;
         for _ in 0..MOST_SHIFTS {
-            let factored = system.factor(q, u, lambda, shift, None);
+            let factored = system.factor(mechanics, q, u, lambda, shift, None);
             shift = if shift == 0.0 { FIRST_SHIFT * system.scale() } else { shift * SHIFT_GROWTH };
             if factored.is_err() {
                 continue;
             }
             // The last trial has overwritten the residual.
-            system.evaluate(q, u, lambda, scale);
-            let Ok(step) = system.newton_step(0.0) else { continue };
+            system.evaluate(mechanics, q, u, lambda, scale);
+            let Ok(step) = system.newton_step(mechanics, 0.0) else { continue };
             let largest = step.q.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
             let (dq, dl) = (step.q.to_vec(), step.lambda.to_vec());
             let mut length = if largest > reach && reach > 0.0 { reach / largest } else { 1.0 };
@@ -78,7 +78,7 @@ pub(crate) fn newton(
                 for ((t, l), d) in trial_lambda.iter_mut().zip(&*lambda).zip(&dl) {
                     *t = l + length * d;
                 }
-                let trial = system.evaluate(&trial_q, u, &trial_lambda, scale);
+                let trial = system.evaluate(mechanics, &trial_q, u, &trial_lambda, scale);
                 if trial.merit <= (1.0 - 2.0 * SUFFICIENT * length) * residual.merit {
                     accepted = true;
                     break;

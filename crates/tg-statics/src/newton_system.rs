@@ -1,5 +1,5 @@
 //! The saddle-point system of one Newton step on the static equations (31), with a gauge and, for continuation, a
-//! parameter p as one more unknown.
+//! parameter p as one more unknown. All structures of one pattern share it.
 //!
 //! ```text
 //! [K + σI   -F_p   -Aᵀ  -Gᵀ] [δq]   [r]      r = F + Aᵀλ
@@ -9,7 +9,7 @@
 //! ```
 //! K is augmented by ϱAᵀA (and ϱGᵀG), which changes nothing on A δq = -Φ once its right-hand side is augmented too.
 
-use tg_model::{At, Layout, Mechanics, Tensioned};
+use tg_model::{At, Layout, Mechanics};
 use tg_sparse::{SaddlePattern, SaddleSystem, SparseError};
 use tg_tangent::{Augmentation, TangentError};
 
@@ -39,8 +39,7 @@ pub(crate) struct Border<'a> {
     pub(crate) row: &'a [f64],
 }
 
-pub(crate) struct NewtonSystem<'s> {
-    structure: &'s dyn Tensioned,
+pub(crate) struct NewtonSystem {
     layout: Layout,
     system: SaddleSystem,
     augmentation: Augmentation,
@@ -61,13 +60,12 @@ pub(crate) struct NewtonSystem<'s> {
     step: Vec<f64>,
 }
 
-impl<'s> NewtonSystem<'s> {
+impl NewtonSystem {
     pub(crate) fn new(
-        structure: &'s dyn Tensioned,
+        mechanics: &dyn Mechanics,
         held: Vec<usize>,
         parameter: bool,
     ) -> Result<Self, TangentError> {
-        let mechanics = structure.mechanics();
         let layout = Layout::new(mechanics);
         let augmentation = Augmentation::new(mechanics);
         let n = layout.unknowns();
@@ -108,16 +106,11 @@ impl<'s> NewtonSystem<'s> {
             border: vec![0.0; if parameter { 2 * n + 1 } else { 0 }],
             phi: vec![0.0; m],
             residual: vec![0.0; n],
-            structure,
             layout,
             augmentation,
             held,
             parameter,
         })
-    }
-
-    pub(crate) fn mechanics(&self) -> &'s dyn Mechanics {
-        self.structure.mechanics()
     }
 
     pub(crate) fn unknowns(&self) -> usize {
@@ -133,16 +126,15 @@ impl<'s> NewtonSystem<'s> {
         self.system.counts().fallbacks
     }
 
-    /// F over the free coordinates at `q` and `u`.
-    pub(crate) fn free_force(&mut self, q: &[f64], u: &[f64], out: &mut [f64]) {
-        let mechanics = self.mechanics();
-        mechanics.force(At { q, v: &self.rest, u, taut: None }, &mut self.force);
-        mechanics.free().iter().zip(out).for_each(|(&i, f)| *f = self.force[i]);
-    }
-
     /// Evaluates r and Φ; forces are scaled by `force_scale`.
-    pub(crate) fn evaluate(&mut self, q: &[f64], u: &[f64], lambda: &[f64], force_scale: f64) -> Residual {
-        let mechanics = self.mechanics();
+    pub(crate) fn evaluate(
+        &mut self,
+        mechanics: &dyn Mechanics,
+        q: &[f64],
+        u: &[f64],
+        lambda: &[f64],
+        force_scale: f64,
+    ) -> Residual {
         mechanics.force(At { q, v: &self.rest, u, taut: None }, &mut self.force);
         let entries = mechanics.jacobian_pattern().len();
         mechanics.jacobian(q, &mut self.jacobian[..entries]);
@@ -174,13 +166,13 @@ impl<'s> NewtonSystem<'s> {
     /// Factors the matrix at the place of the last [`NewtonSystem::evaluate`].
     pub(crate) fn factor(
         &mut self,
+        mechanics: &dyn Mechanics,
         q: &[f64],
         u: &[f64],
         lambda: &[f64],
         shift: f64,
         border: Option<Border<'_>>,
     ) -> Result<(), TangentError> {
-        let mechanics = self.mechanics();
         mechanics.stiffness(At { q, v: &self.rest, u, taut: None }, &mut self.stiffness);
         for (value, e) in self.hessian.iter_mut().zip(mechanics.constraint_hessian()) {
             *value = -lambda[e.constraint] * e.value;
@@ -205,11 +197,15 @@ impl<'s> NewtonSystem<'s> {
             self.system.add_leading(BORDER, 1.0, &self.border);
         }
         self.system.set_jacobian(&self.jacobian, &self.jacobian);
-        self.system.factor().map_err(|source| named(&self.layout, self.mechanics(), source))
+        self.system.factor().map_err(|source| named(&self.layout, mechanics, source))
     }
 
     /// The Newton step from the last evaluation: δq over the free coordinates, δp if there is one, δλ. `arclength` is s.
-    pub(crate) fn newton_step(&mut self, arclength: f64) -> Result<Step<'_>, TangentError> {
+    pub(crate) fn newton_step(
+        &mut self,
+        mechanics: &dyn Mechanics,
+        arclength: f64,
+    ) -> Result<Step<'_>, TangentError> {
         let (n, m) = (self.unknowns(), self.phi.len());
         let p = usize::from(self.parameter);
         self.step[..n].copy_from_slice(&self.residual);
@@ -218,7 +214,7 @@ impl<'s> NewtonSystem<'s> {
         }
         // -Aᵀ P Φ, from the augmentation's own entries: A δq = -Φ.
         let rho = self.scale();
-        let pattern = self.mechanics().jacobian_pattern();
+        let pattern = mechanics.jacobian_pattern();
         let mut norms = vec![0.0; m];
         for (&(row, i), a) in pattern.iter().zip(&self.jacobian) {
             if self.layout.unknown(i).is_some() {
@@ -234,20 +230,20 @@ impl<'s> NewtonSystem<'s> {
             *rhs = -phi;
         }
         self.step[n + p + m..].fill(0.0);
-        self.solve()
+        self.solve(mechanics)
     }
 
     /// The step for a right-hand side that is zero but for the arclength row: the tangent of a path.
-    pub(crate) fn tangent_step(&mut self) -> Result<Step<'_>, TangentError> {
+    pub(crate) fn tangent_step(&mut self, mechanics: &dyn Mechanics) -> Result<Step<'_>, TangentError> {
         let n = self.unknowns();
         self.step.fill(0.0);
         self.step[n] = 1.0;
-        self.solve()
+        self.solve(mechanics)
     }
 
-    fn solve(&mut self) -> Result<Step<'_>, TangentError> {
+    fn solve(&mut self, mechanics: &dyn Mechanics) -> Result<Step<'_>, TangentError> {
         let result = self.system.solve(&mut self.step);
-        result.map_err(|source| named(&self.layout, self.structure.mechanics(), source))?;
+        result.map_err(|source| named(&self.layout, mechanics, source))?;
         let (n, m) = (self.unknowns(), self.phi.len());
         let (q, rest) = self.step.split_at(n);
         let (p, rest) = rest.split_at(usize::from(self.parameter));

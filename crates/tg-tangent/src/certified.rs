@@ -74,6 +74,9 @@ pub(crate) fn lowest(
         positive: freedom - up_to_zero,
     };
 
+    if wanted == 0 {
+        return Ok(Spectrum { pairs: Vec::new(), counts, zero_limit, largest, method: Method::Sparse });
+    }
     let shift = shift_below_all(&mut inverse, &counts, zero_limit, largest)?;
     inverse.factor_shifted(shift)?;
     let metric = (options.metric == Metric::Mass).then_some(&tangent.mass);
@@ -85,9 +88,9 @@ pub(crate) fn lowest(
         let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
         let values: Vec<f64> = pairs.iter().map(|pair| shift + 1.0 / pair.theta).collect();
         // Everything below the gap behind the last wanted pair.
-        let last = values[wanted.max(1) - 1..wanted].first().copied().unwrap_or(shift);
+        let last = values.get(wanted - 1).copied().unwrap_or(shift);
         let gap = CLUSTER * last.abs().max(zero_limit);
-        let expected = if wanted == 0 || krylov.is_full() {
+        let expected = if krylov.is_full() {
             wanted
         } else {
             let count = inverse.count_below(last + gap, 0.1 * gap)?;

@@ -44,13 +44,29 @@ pub fn symmetric_eigen(x: &Mat<f64>) -> Result<RealEigen, TangentError> {
     Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
 }
 
-/// Eigenvalues and eigenvectors (columns) of a general matrix.
+/// Eigenvalues and eigenvectors (columns) of a general matrix; conjugate eigenvalues are conjugate to the last bit, and
+/// real ones have no imaginary part.
 ///
 /// # Errors
 /// The decomposition does not converge.
 pub fn eigen(x: &Mat<f64>) -> Result<(Vec<c64>, Mat<c64>), TangentError> {
-    let eigen = x.eigen().map_err(|_| TangentError::Dense { what: "eigendecomposition" })?;
-    Ok((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+    const WHAT: TangentError = TangentError::Dense { what: "eigendecomposition" };
+    let real = x.eigenvalues().map_err(|_| WHAT)?;
+    // faer 0.24's vectors of a real matrix leave residuals up to 1e-2 where pairs repeat; those of the same matrix taken
+    // as complex do not.
+    let complex = Mat::from_fn(x.nrows(), x.ncols(), |r, c| c64::new(x[(r, c)], 0.0));
+    let eigen = complex.eigen().map_err(|_| WHAT)?;
+    let mut left: Vec<(usize, c64)> = eigen.S().column_vector().iter().copied().enumerate().collect();
+    let mut columns = Vec::with_capacity(real.len());
+    for value in &real {
+        let distance = |k: &usize| (left[*k].1 - value).norm();
+        let Some(nearest) = (0..left.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))) else {
+            return Err(WHAT);
+        };
+        columns.push(left.swap_remove(nearest).0);
+    }
+    let vectors = eigen.U();
+    Ok((real, Mat::from_fn(x.nrows(), x.ncols(), |r, c| vectors[(r, columns[c])])))
 }
 
 /// Eigenvalues, ascending, and W-orthonormal eigenvectors of `K x = ν W x`, K and W symmetric; `None` if W is not

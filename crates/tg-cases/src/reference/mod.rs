@@ -1,14 +1,17 @@
-//! Independent minimal-coordinate reference models of the framework paper's examples 1 and 2.
+//! Independent minimal-coordinate reference models of the framework paper's examples.
 //!
-//! Plain rigid-body mechanics in angles, `M(θ) θ̈ = Q(θ, θ̇, t)`, with neither multipliers nor natural
-//! coordinates: the truth that the DAE integrators are checked against. Nothing here uses another `tg-*` crate.
+//! Plain rigid-body mechanics in independent coordinates, with neither multipliers nor natural coordinates: motions
+//! `M(θ) θ̈ = Q(θ, θ̇, t)` of the planar examples, statics and modes of the spatial one. Nothing here uses another `tg-*`
+//! crate.
 //!
 //! - [`double_pendulum`]: example 1, two angles, Lagrange's equations in closed form;
 //! - [`tower`]: example 2, five angles, cables that may slacken, moving ground;
+//! - [`deployable`]: example 3, twenty-four coordinates, potential and kinetic energy in dual numbers;
 //! - `linkage`: positions, velocities and inertia of points carried by rotating arms (the tower's kinematics);
 //! - `gauss`: one Gauss collocation step of order 16 with its interpolating polynomial;
 //! - `ode`: step size control, requested output times and located events over that step.
 
+pub mod deployable;
 pub mod double_pendulum;
 mod gauss;
 mod linkage;
@@ -50,6 +53,8 @@ pub enum ReferenceError {
         /// Time at which the solution stopped \[s\].
         t: f64,
     },
+    /// A mass matrix is not positive definite.
+    MassMatrix,
 }
 
 impl fmt::Display for ReferenceError {
@@ -67,6 +72,9 @@ impl fmt::Display for ReferenceError {
                 f,
                 "a cable switches without end at t = {t} s: start with lengths that differ from the rest lengths"
             ),
+            Self::MassMatrix => {
+                write!(f, "the mass matrix is not positive definite: check that the masses are positive")
+            }
         }
     }
 }

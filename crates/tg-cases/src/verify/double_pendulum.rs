@@ -6,6 +6,7 @@ use tg_coords::CoordType;
 use tg_integrate::{GeneralizedAlpha, NewtonOptions, Run, State, StepReport, Symplectic};
 use tg_model::Joining;
 
+use super::mass_difference;
 use crate::double_pendulum::{Choices, DoublePendulum};
 use crate::error::CaseError;
 use crate::plane::{SPLIT, triangle};
@@ -50,11 +51,7 @@ fn start(rows: &mut Rows, pendulum: &DoublePendulum) -> Result<(), CaseError> {
     {
         let body = triangle(coord_type, SPLIT)?;
         let published = &framework().example1.masses[name];
-        let mass = body.mass_matrix();
-        let worst = (0..3)
-            .flat_map(|i| (0..3).map(move |j| (i, j)))
-            .map(|(i, j)| (mass.get(i, j) - published[i][j]).abs())
-            .fold(0.0, f64::max);
+        let worst = mass_difference(body.mass_matrix(), published);
         rows.below(format!("mass matrix {name}, largest difference"), "kg", worst, EXACT, 1e-15);
     }
     let mut stepper = Symplectic::new(&pendulum.model, NewtonOptions::default())?;

@@ -1,10 +1,14 @@
 //! Every number of the papers' examples beside ours.
 //!
 //! - [`double_pendulum`]: example 1 of the framework paper, Sec. 6.1;
-//! - [`tower`]: dynamics of example 2, Sec. 6.2.2.
+//! - [`tower`]: dynamics of example 2, Sec. 6.2.2;
+//! - [`deployable`]: example 3, Sec. 6.3.
 
+pub mod deployable;
 pub mod double_pendulum;
 pub mod tower;
+
+use tg_coords::MassMatrix;
 
 use crate::error::CaseError;
 use crate::row::Row;
@@ -21,7 +25,7 @@ pub struct Case {
 }
 
 /// All cases in the order of the papers.
-pub const CASES: [Case; 2] = [
+pub const CASES: [Case; 3] = [
     Case {
         name: double_pendulum::NAME,
         title: "framework paper, Sec. 6.1: dynamics of a double pendulum",
@@ -32,4 +36,19 @@ pub const CASES: [Case; 2] = [
         title: "framework paper, Sec. 6.2: dynamics of a planar class-3 tower",
         rows: tower::rows,
     },
+    Case {
+        name: deployable::NAME,
+        title: "framework paper, Sec. 6.3: a spatial deployable tower",
+        rows: deployable::rows,
+    },
 ];
+
+/// Largest difference of an entry of a scalar mass matrix from its reference \[kg\]; NaN if the sizes differ.
+fn mass_difference(ours: &MassMatrix, theirs: &[Vec<f64>]) -> f64 {
+    if ours.len() != theirs.len() || theirs.iter().any(|row| row.len() != theirs.len()) {
+        return f64::NAN;
+    }
+    let rows = theirs.iter().enumerate();
+    rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, m)| (ours.get(i, j) - m).abs()))
+        .fold(0.0, f64::max)
+}

@@ -8,7 +8,7 @@ use crate::error::CaseError;
 use crate::published::{EXACT, SCHEME, framework};
 use crate::reference::tower as angles;
 use crate::row::{Row, Rows};
-use crate::simulate::{self, STEP, order, record, run, run_from};
+use crate::simulate::{self, STEP, order, record, run, run_from, until_negative};
 use crate::slack::{self, SlackInterval, SlackWatch};
 use crate::tower::{Choices, Joints, Setup, Tower};
 
@@ -230,18 +230,8 @@ fn fall(rows: &mut Rows) -> Result<(), CaseError> {
 
 /// Time at which a vertex of a triangle first reaches y = 0 \[s\].
 fn touches_ground(tower: &Tower, h: f64) -> Result<f64, CaseError> {
-    let mut stepper = Symplectic::new(&tower.model, NewtonOptions::default())?;
-    let mut state = simulate::start(&tower.model, &mut stepper)?;
-    let (mut before, mut ground) = ((state.t, tower.lowest_vertex(&state)), f64::NAN);
-    Run::new(h, 2.0)
-        .stop_when(|state| {
-            let now = (state.t, tower.lowest_vertex(state));
-            ground = before.0 + (now.0 - before.0) * before.1 / (before.1 - now.1);
-            before = now;
-            now.1 < 0.0
-        })
-        .go(&mut stepper, &mut state)?;
-    Ok(ground)
+    let contact = until_negative(&tower.model, h, 2.0, |state| tower.lowest_vertex(state), |_| ())?;
+    Ok(contact.unwrap_or(f64::NAN))
 }
 
 /// What must not matter.

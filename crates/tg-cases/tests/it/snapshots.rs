@@ -1,5 +1,7 @@
 //! Key numbers, rounded far above the differences between machines (chaos multiplies rounding by 1e3 over 4 s).
 
+use tg_cases::deployable::{Choices, Configuration, Deployable};
+use tg_cases::published::framework;
 use tg_cases::simulate::{STEP, record, run};
 use tg_cases::slack::SlackWatch;
 use tg_cases::{double_pendulum, tower};
@@ -46,6 +48,27 @@ fn slack_intervals() {
         for s in watch.finish() {
             let (cable, from, to) = (s.cable + 1, s.from, s.to);
             lines.push(format!("{} cable {cable}: {from:.5} s to {to:.5} s", setup.name()));
+        }
+    }
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn deployable_tower_vibrates_and_unfolds() {
+    let published = &framework().example3;
+    let [initial, target] = [&published.initial.rest, &published.target.rest];
+    let mut lines = Vec::new();
+    for (name, choices, end) in [
+        ("initial", Choices::still(Configuration::Initial, initial), 3),
+        ("target", Choices::still(Configuration::Target, target), 3),
+        ("deployment in 10 s", Choices::deployment(initial, target, 10.0), 8),
+    ] {
+        let structure = Deployable::new(&choices.on_seismic_ground(0.5)).unwrap();
+        let top = &structure.centres[3];
+        let path = record(&structure.model, STEP, f64::from(end), |state| top.eval(&state.q)).unwrap();
+        for k in 1..=end {
+            let p = path[1000 * k as usize];
+            lines.push(format!("{name} {k} s: {} {} {}", rounded(p.x), rounded(p.y), rounded(p.z)));
         }
     }
     insta::assert_snapshot!(lines.join("\n"));
