@@ -218,6 +218,12 @@ impl<const D: usize> Model<D> {
         &self.cables[cable.0].form
     }
 
+    /// Name of a node: the D-vector of the full coordinates `node·D .. node·D + D`.
+    #[track_caller]
+    pub fn node_name(&self, node: usize) -> &str {
+        &self.node_names[node]
+    }
+
     /// What each constraint belongs to, in the order of Φ.
     pub fn constraint_sources(&self) -> &[ConstraintSource] {
         &self.constraint_sources

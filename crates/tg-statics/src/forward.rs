@@ -27,6 +27,8 @@ const SMALLEST_STEP: f64 = 1.0 / 1024.0;
 /// equilibrium.
 const NUDGE: f64 = 1e-2;
 const MOST_NUDGES: u32 = 8;
+/// Stops after which relaxation has left an unstable equilibrium: it gathers speed until it is past the next minimum.
+const LEAVING_STOPS: u32 = 1;
 
 /// Which equilibrium is wanted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,7 +131,7 @@ impl<'s> Forward<'s> {
                 walk.report.load_steps += 1;
             } else if step > SMALLEST_STEP && from != to {
                 step *= 0.5;
-            } else if self.options.relax && walk.relax(&u)? {
+            } else if self.options.relax && walk.relax(&u, 0)? {
                 done = next;
                 walk.report.load_steps += 1;
             } else {
@@ -148,6 +150,7 @@ struct Walk<'s> {
     structure: &'s dyn Tensioned,
     options: ForwardOptions,
     system: NewtonSystem,
+    start: Vec<f64>,
     q: Vec<f64>,
     lambda: Vec<f64>,
     last: NewtonRun,
@@ -165,7 +168,16 @@ impl<'s> Walk<'s> {
         let system = NewtonSystem::new(structure.mechanics(), held_coordinates(structure, q, u)?, false)?;
         let report = ForwardReport { gauged: system.gauged(), ..ForwardReport::default() };
         let last = NewtonRun { iterations: 0, residual: Default::default(), converged: false };
-        Ok(Self { structure, options: *options, system, q: q.to_vec(), lambda: start.lambda, last, report })
+        Ok(Self {
+            structure,
+            options: *options,
+            system,
+            start: q.to_vec(),
+            q: q.to_vec(),
+            lambda: start.lambda,
+            last,
+            report,
+        })
     }
 
     /// Newton's method at inputs `u`; where it does not converge, the state stays as it was.
@@ -189,12 +201,12 @@ impl<'s> Walk<'s> {
         Ok(run.converged)
     }
 
-    /// Relaxes, with attempts of Newton's method on the way; whether one converged.
-    fn relax(&mut self, u: &[f64]) -> Result<bool, ForwardError> {
+    /// Relaxes, with attempts of Newton's method on the way, the first after so many stops; whether one converged.
+    fn relax(&mut self, u: &[f64], stops: u32) -> Result<bool, ForwardError> {
         let mut relaxation = Relaxation::new(self.structure)?;
         let mut found = false;
         for target in HANDOVERS {
-            let arrived = relaxation.run(&mut self.q, u, target, RELAXATION_STEPS);
+            let arrived = relaxation.run(&mut self.q, u, target, stops, RELAXATION_STEPS);
             self.report.relaxation_steps = self.report.relaxation_steps.max(relaxation.steps);
             self.report.relaxation_stops = self.report.relaxation_stops.max(relaxation.stops);
             let arrived = arrived?;
@@ -224,7 +236,7 @@ impl<'s> Walk<'s> {
             let scales = self.structure.mechanics().constraint_scales();
             let size = scales.iter().fold(0.0_f64, |a, s| a.max(s.sqrt())).max(f64::MIN_POSITIVE);
             self.q.iter_mut().zip(&pair.shape).for_each(|(q, x)| *q += NUDGE * size * x);
-            if !self.relax(u)? {
+            if !self.relax(u, LEAVING_STOPS)? {
                 return Err(self.failure(u, 1.0)?);
             }
         }
@@ -252,8 +264,9 @@ impl<'s> Walk<'s> {
         let mechanics = self.structure.mechanics();
         let at = Configuration::at(mechanics, &self.q, u)?;
         let (residual, worst) = at.imbalance();
-        let free = RigidMotions::free(self.structure, &self.q)?;
-        let gauged = free.without_work(self.structure, &self.q, u)?.count();
+        // At the start: where a load has carried the structure off, its work is small against all else.
+        let free = RigidMotions::free(self.structure, &self.start)?;
+        let gauged = free.without_work(self.structure, &self.start, u)?.count();
         Ok(ForwardError::NotReached {
             residual,
             coordinate: mechanics.coordinate_name(mechanics.free()[worst]),

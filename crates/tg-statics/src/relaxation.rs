@@ -52,13 +52,14 @@ impl<'s> Relaxation<'s> {
         })
     }
 
-    /// Runs until the residual force is below `target` of the largest force, or for at most `most` steps; whether it
-    /// got there.
+    /// Runs until the residual force is below `target` of the largest force, after at least `stops` stops in all, or for at
+    /// most `most` steps; whether it got there.
     pub(crate) fn run(
         &mut self,
         q: &mut [f64],
         u: &[f64],
         target: f64,
+        stops: u32,
         most: u32,
     ) -> Result<bool, TangentError> {
         let mechanics = self.structure.mechanics();
@@ -96,7 +97,7 @@ impl<'s> Relaxation<'s> {
                 self.stops += 1;
                 continue;
             }
-            if self.energy == 0.0 && unbalanced <= target * scale {
+            if self.energy == 0.0 && unbalanced <= target * scale && self.stops >= stops {
                 return Ok(true);
             }
             self.energy = energy;

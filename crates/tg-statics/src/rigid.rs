@@ -90,7 +90,7 @@ impl RigidMotions {
     fn moved(&self, structure: &dyn Tensioned, q: &[f64], sample: usize) -> Vec<f64> {
         let mix: Vec<f64> =
             (0..self.count()).map(|k| (1.0 + 1.7 * sample as f64 + 2.3 * k as f64).sin()).collect();
-        let size = q.iter().fold(0.0_f64, |a, x| a.max(x.abs())).max(f64::MIN_POSITIVE);
+        let size = size(structure, q);
         let field = |x: &[f64]| {
             let mut sum = vec![0.0; x.len()];
             for (field, m) in self.fields(structure, x).iter().zip(&mix) {
@@ -109,6 +109,15 @@ impl RigidMotions {
         }
         moved
     }
+}
+
+/// Largest length of a cable or member: the size of a structure wherever it stands.
+fn size(structure: &dyn Tensioned, q: &[f64]) -> f64 {
+    let (mut lengths, mut gradients) =
+        (vec![0.0; structure.cable_count()], vec![0.0; structure.length_pattern().len()]);
+    structure.lengths(q, &mut lengths, &mut gradients);
+    let members = structure.constraint_scales().iter().map(|s| s.sqrt());
+    members.chain(lengths).fold(0.0, f64::max)
 }
 
 fn columns(vectors: &[Vec<f64>]) -> Mat<f64> {

@@ -25,7 +25,7 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 const POWER_STEPS: u32 = 12;
 /// Eigenvalues closer than this part of each other's size are one multiple eigenvalue.
 const CLUSTER: f64 = 1e-6;
-/// The first shift in units of the zero limit, below zero.
+/// The first distance of the shift from zero, in units of the zero limit.
 const FIRST_SHIFT: f64 = 4.0;
 
 struct Shifted<'a, 'm> {
@@ -121,25 +121,31 @@ pub(crate) fn lowest(
     }
 }
 
-/// A shift below all eigenvalues and, where it can be, as near to the lowest as that is to zero: convergence depends on
-/// the ratio of distances from the shift.
+/// A shift below all eigenvalues, about as far from zero as the first eigenvalue that is not: convergence depends on the
+/// ratio of distances from the shift, and vectors next to zero modes that are blown up by more lose their digits.
 fn shift_below_all(
     inverse: &mut ShiftInvert<'_>,
     counts: &Counts,
     zero_limit: f64,
     largest: f64,
 ) -> Result<f64, TangentError> {
-    let sign = if counts.negative + counts.zero == 0 { 1.0 } else { -1.0 };
-    let mut shift = sign * FIRST_SHIFT * zero_limit;
-    while shift.abs() < 2.0 * largest {
-        let below = inverse.count_below(shift, 0.1 * shift.abs())?;
-        match sign > 0.0 {
-            true if below > 0 => return Ok(shift / 8.0),
-            false if below == 0 => return Ok(shift),
-            _ => shift *= 4.0,
+    let mut distance = FIRST_SHIFT * zero_limit;
+    while distance < 2.0 * largest {
+        let slack = 0.1 * distance;
+        let found = match counts.negative {
+            0 => inverse.count_below(distance, slack)? > counts.zero,
+            _ => inverse.count_below(-distance, slack)? == 0,
+        };
+        if found {
+            break;
         }
+        distance *= 4.0;
     }
-    Ok(shift)
+    Ok(match counts {
+        Counts { negative: 0, zero: 0, .. } => distance / 8.0,
+        Counts { negative: 0, .. } => -distance / 4.0,
+        _ => -distance,
+    })
 }
 
 /// Grows the space until the pairs of the `wanted` largest θ have converged; those and some behind them.

@@ -38,9 +38,10 @@ impl Configuration {
         let at = At { q, v: &rest, u, taut: None };
         let mut force = rest.clone();
         mechanics.force(at, &mut force);
-        let not_finite = mechanics.free().iter().find(|&&i| !force[i].is_finite());
-        if let Some(&i) = not_finite {
-            return Err(TangentError::NotFinite { what: "the force", culprit: mechanics.coordinate_name(i) });
+        for (what, values) in [("the coordinate", q), ("the force", &force)] {
+            if let Some(i) = values.iter().position(|x| !x.is_finite()) {
+                return Err(TangentError::NotFinite { what, culprit: mechanics.coordinate_name(i) });
+            }
         }
         let force: Vec<f64> = mechanics.free().iter().map(|&i| force[i]).collect();
         let (lambda, residual) = balance(mechanics, q, &force)?;

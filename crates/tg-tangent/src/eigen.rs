@@ -5,6 +5,7 @@
 //! K x - Aᵀ y = ν W x,   A x = 0          (44) with W = M: ν = ω²
 //! ```
 
+use faer::Mat;
 use tg_model::Mechanics;
 
 use crate::certified;
@@ -101,7 +102,7 @@ pub struct Spectrum {
     pub pairs: Vec<EigenPair>,
     /// Signs of all eigenvalues.
     pub counts: Counts,
-    /// |ν| up to which an eigenvalue counts as zero.
+    /// |ν| up to which an eigenvalue counts as zero: [`EigenOptions::zero`] times the largest, or the accuracy.
     pub zero_limit: f64,
     /// Largest |ν|, or an estimate of it.
     pub largest: f64,
@@ -142,11 +143,11 @@ fn by_reduction(
         },
     };
     let largest = values.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-    let zero_limit = options.zero * largest;
-    let accuracy = 64.0 * f64::EPSILON * largest;
+    let shapes = basis * shapes;
+    let accuracy = (64.0 * f64::EPSILON * largest).max(cancelled(&tangent, &shapes));
+    let zero_limit = (options.zero * largest).max(accuracy);
     let pairs = (0..options.count.min(values.len())).map(|k| {
-        let shape = basis * shapes.col(k);
-        let shape: Vec<f64> = shape.iter().copied().collect();
+        let shape: Vec<f64> = shapes.col(k).iter().copied().collect();
         EigenPair {
             value: values[k],
             accuracy,
@@ -166,6 +167,16 @@ fn by_reduction(
         largest,
         method: Method::Dense,
     })
+}
+
+/// Rounding that cancellation leaves in a quotient xᵀ K x, where stiffness and multipliers balance: with one degree of
+/// freedom at its critical load no other eigenvalue says what zero means.
+fn cancelled(tangent: &Tangent<'_>, shapes: &Mat<f64>) -> f64 {
+    let terms = |k: usize| {
+        let entries = tangent.stiffness.iter();
+        entries.map(|(r, c, value)| (value * shapes[(r, k)] * shapes[(c, k)]).abs()).sum::<f64>()
+    };
+    4.0 * f64::EPSILON * (0..shapes.ncols()).map(terms).fold(0.0, f64::max)
 }
 
 pub(crate) fn sign(value: f64, zero_limit: f64) -> Sign {

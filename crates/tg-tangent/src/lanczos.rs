@@ -14,8 +14,9 @@ use crate::error::TangentError;
 
 /// Vectors of a block: the highest multiplicity in the icosahedral and cubic structures is five, in most others three.
 const BLOCK: usize = 4;
-/// Share of a vector's length below which orthogonalisation has left rounding only.
-const LOST: f64 = 1e-10;
+/// Share of a vector's length below which orthogonalisation has left too few digits: what remains would be partly
+/// rounding, and outside of the null space of A. A new random vector takes its place.
+const LOST: f64 = 1e-4;
 
 /// The operator S and the metric W.
 pub(crate) trait Operator {
@@ -130,13 +131,14 @@ impl Krylov {
         (self.random >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// Ritz pairs with the `count` largest θ, descending.
+    /// Ritz pairs with the `count` largest θ, descending. Their vectors are S V s, which lies in the null space of A as
+    /// exactly as one solve; V s gathers the rounding of all orthogonalisations.
     pub(crate) fn largest(&self, op: &impl Operator, count: usize) -> Result<Vec<RitzPair>, TangentError> {
         let k = self.v.len();
         let t = Mat::from_fn(k, k, |r, c| self.products[r.max(c)][r.min(c)]);
         let (values, vectors) = dense::symmetric_eigen(&t)?;
         let mut residual = vec![0.0; op.size()];
-        let mut weighted = residual.clone();
+        let mut weighted = vec![0.0; op.size()];
         let mut pairs = Vec::new();
         for column in (0..k).rev().take(count) {
             let theta = values[column];
@@ -145,12 +147,16 @@ impl Krylov {
             for (row, (v, sv)) in self.v.iter().zip(&self.sv).enumerate() {
                 let s = vectors[(row, column)];
                 for ((x, r), (v, sv)) in vector.iter_mut().zip(&mut residual).zip(v.iter().zip(sv)) {
-                    *x += s * v;
+                    *x += s * sv;
                     *r += s * (sv - theta * v);
                 }
             }
             op.metric(&residual, &mut weighted);
-            pairs.push(RitzPair { theta, vector, residual: dot(&residual, &weighted).max(0.0).sqrt() });
+            let residual = dot(&residual, &weighted).max(0.0).sqrt();
+            op.metric(&vector, &mut weighted);
+            let norm = dot(&vector, &weighted).max(0.0).sqrt();
+            vector.iter_mut().for_each(|x| *x /= norm);
+            pairs.push(RitzPair { theta, vector, residual });
         }
         Ok(pairs)
     }

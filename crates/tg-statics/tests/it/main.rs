@@ -2,5 +2,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod continuation;
+mod equilibrium;
+mod forward;
+mod inverse;
 mod prism;
 mod structures;

@@ -1,37 +1,106 @@
-//! Dense and sparse eigenpairs.
+//! Dense and sparse eigenpairs against each other and against a beam.
 
-use tg_fixtures::spine;
-use tg_model::Mechanics;
-use tg_tangent::{Configuration, EigenOptions, Method, Metric, lowest};
+use approx::assert_relative_eq;
+use tg_fixtures::{prism, spine};
+use tg_model::{CableLaw, Mechanics, Model};
+use tg_tangent::{Configuration, Counts, EigenOptions, Method, Metric, Sign, Spectrum, Tangent, lowest};
+
+fn at(model: &Model<3>) -> Configuration {
+    Configuration::at(model, &model.initial_coordinates(), &model.inputs_at(0.0)).unwrap()
+}
+
+fn spectrum(model: &Model<3>, metric: Metric, method: Method) -> Spectrum {
+    lowest(model, &at(model), &EigenOptions { method, ..EigenOptions::new(12, metric) }).unwrap()
+}
 
 #[test]
 fn dense_and_sparse_agree() {
-    let spine = spine(5, 8.0, 0.0).unwrap();
-    let q = spine.model.initial_coordinates();
-    let at = Configuration::at(&spine.model, &q, &spine.model.inputs_at(0.0)).unwrap();
-    assert!(at.imbalance().0 < 1e-12, "{:?}", at.imbalance());
-    for metric in [Metric::Mass, Metric::Coordinates] {
-        let options = EigenOptions { method: Method::Dense, ..EigenOptions::new(10, metric) };
-        let dense = lowest(&spine.model, &at, &options).unwrap();
-        let sparse = lowest(&spine.model, &at, &EigenOptions { method: Method::Sparse, ..options }).unwrap();
-        for (a, b) in dense.pairs.iter().zip(&sparse.pairs) {
-            println!("{metric:?} {} {} {:.1e}", a.value, b.value, (a.value / b.value - 1.0).abs());
+    let models = [
+        spine(5, 8.0, 0.0).unwrap().model,
+        prism(6, 10.0, 0.0, CableLaw::slacking).unwrap().model,
+        prism(6, -10.0, 0.0, CableLaw::linear).unwrap().model,
+    ];
+    for model in models {
+        for metric in [Metric::Mass, Metric::Coordinates] {
+            let (dense, sparse) =
+                (spectrum(&model, metric, Method::Dense), spectrum(&model, metric, Method::Sparse));
+            assert_eq!(dense.counts, sparse.counts);
+            assert_eq!((dense.pairs.len(), sparse.pairs.len()), (12, 12));
+            for (a, b) in dense.pairs.iter().zip(&sparse.pairs) {
+                assert_eq!(a.sign, b.sign);
+                assert!((a.value - b.value).abs() <= a.accuracy + b.accuracy, "{} {}", a.value, b.value);
+            }
         }
-        println!("{:?} {:?} {} {}", dense.counts, sparse.counts, dense.largest, sparse.largest);
-        assert_eq!(dense.counts, sparse.counts);
+    }
+}
+
+/// K x - ν M x is a constraint force, A x = 0, xᵀ M x = 1.
+#[test]
+fn pairs_satisfy_their_equations() {
+    let model = spine(8, 8.0, 0.0).unwrap().model;
+    let tangent_at = at(&model);
+    let tangent = Tangent::new(&model, &tangent_at);
+    for method in [Method::Dense, Method::Sparse] {
+        let found = spectrum(&model, Metric::Mass, method);
+        for pair in &found.pairs {
+            let x: Vec<f64> = model.free().iter().map(|&i| pair.shape[i]).collect();
+            let (mut r, mut mx) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+            tangent.stiffness.add_product(1.0, &x, &mut r);
+            tangent.mass.add_product(1.0, &x, &mut mx);
+            assert_relative_eq!(
+                x.iter().zip(&mx).map(|(a, b)| a * b).sum::<f64>(),
+                1.0,
+                max_relative = 1e-11
+            );
+            r.iter_mut().zip(&mx).for_each(|(r, m)| *r -= pair.value * m);
+            let (_, residual) = tg_tangent::balance(&model, &tangent_at.q, &r).unwrap();
+            let size = r.iter().fold(0.0_f64, |a, r| a.max(r.abs()));
+            assert!(residual.iter().all(|r| r.abs() < 1e-7 * size.max(1e-3)), "{method:?} {}", pair.value);
+            let mut rate = vec![0.0; model.sizes().constraints];
+            tangent.jacobian.add_product(1.0, &x, &mut rate);
+            assert!(rate.iter().all(|rate| rate.abs() < 1e-10), "{method:?}");
+        }
     }
 }
 
 #[test]
-fn a_thousand_bodies() {
-    let spine = spine(1000, 8.0, 0.0).unwrap();
-    let q = spine.model.initial_coordinates();
-    let at = Configuration::at(&spine.model, &q, &spine.model.inputs_at(0.0)).unwrap();
-    println!("{} {:?}", spine.model.free().len(), at.imbalance());
-    let start = std::time::Instant::now();
-    let sparse = lowest(&spine.model, &at, &EigenOptions::new(10, Metric::Mass)).unwrap();
-    println!("{:?} {:?} {}", start.elapsed(), sparse.counts, sparse.largest);
-    for p in &sparse.pairs {
-        println!("{}", p.value);
+fn a_free_body_of_cables_has_six_zeros() {
+    let model = prism(4, 10.0, 0.0, CableLaw::slacking).unwrap().model;
+    for method in [Method::Dense, Method::Sparse] {
+        let found = spectrum(&model, Metric::Mass, method);
+        assert_eq!(found.counts, Counts { negative: 0, zero: 6, positive: 14 });
+        assert!(found.pairs[..6].iter().all(|pair| pair.sign == Sign::Zero));
+        let zeros = found.pairs[..6].iter().map(|pair| pair.value.abs() / found.largest);
+        assert!(zeros.fold(0.0, f64::max) < 1e-14);
+    }
+}
+
+/// A spine of a thousand vertebrae bends like a slender cantilever: pairs of equal frequencies, and
+/// ω_n²/ω_1² = (β_n/β_1)⁴ with the roots of cos β cosh β = -1.
+#[test]
+fn a_thousand_bodies_bend_like_a_beam() {
+    let model = spine(1000, 8.0, 0.0).unwrap().model;
+    assert_eq!(model.free().len(), 12_000);
+    let found = lowest(&model, &at(&model), &EigenOptions::new(10, Metric::Mass)).unwrap();
+    assert_eq!(found.method, Method::Sparse);
+    assert_eq!(found.counts, Counts { negative: 0, zero: 0, positive: 6000 });
+    let roots: [f64; 3] = [1.875_104_068_711_961, 4.694_091_132_974_175, 7.854_757_438_237_613];
+    for (pair, root) in found.pairs.chunks_exact(2).zip(roots) {
+        assert!((pair[0].value - pair[1].value).abs() < pair[0].accuracy);
+        let ratio = pair[0].value / found.pairs[0].value;
+        assert_relative_eq!(ratio, (root / roots[0]).powi(4), max_relative = 3e-3);
+    }
+}
+
+#[test]
+fn nothing_asked_is_counted_all_the_same() {
+    let model = spine(3, 8.0, 0.0).unwrap().model;
+    for method in [Method::Dense, Method::Sparse] {
+        let options = EigenOptions { method, ..EigenOptions::new(0, Metric::Mass) };
+        let found = lowest(&model, &at(&model), &options).unwrap();
+        assert!(found.pairs.is_empty());
+        assert_eq!(found.counts, Counts { negative: 0, zero: 0, positive: 18 });
+        let all = EigenOptions { method, ..EigenOptions::new(100, Metric::Mass) };
+        assert_eq!(lowest(&model, &at(&model), &all).unwrap().pairs.len(), 18);
     }
 }

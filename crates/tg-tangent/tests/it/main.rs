@@ -1,4 +1,5 @@
-//! Tests of the tangent against closed forms, finite differences, and of each method against the other.
+//! Integration tests of tg-tangent, one module per subject in one program.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod eigen;
+mod tangent;
