@@ -7,12 +7,16 @@ use serde::Deserialize;
 use crate::TaskError;
 
 /// Each crate and the workspace crates that it may use, lowest layer first.
-const ALLOWED: [(&str, &[&str]); 6] = [
+const ALLOWED: [(&str, &[&str]); 10] = [
     ("tg-coords", &[]),
     ("tg-sparse", &[]),
     ("tg-model", &["tg-coords", "tg-sparse"]),
+    ("tg-tangent", &["tg-model", "tg-sparse"]),
+    ("tg-statics", &["tg-model", "tg-sparse", "tg-tangent"]),
+    ("tg-modal", &["tg-coords", "tg-model", "tg-tangent"]),
     ("tg-integrate", &["tg-model", "tg-sparse"]),
-    ("tg-cases", &["tg-coords", "tg-model", "tg-integrate"]),
+    ("tg-fixtures", &["tg-coords", "tg-model"]),
+    ("tg-cases", &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-integrate"]),
     ("xtask", &["tg-cases", "tg-integrate", "tg-model"]),
 ];
 

@@ -2,9 +2,11 @@
 //! (Sec. 6.3, Tables 4 and 5).
 //!
 //! A two-stage prism of bars stands on three points of the ground and carries tetrahedron 7; tetrahedra 8, 9 and 10 are
-//! stacked upon it, 8 and 9 apex to apex in one point. `geometry` says where everything stands.
+//! stacked upon it, 8 and 9 apex to apex in one point. `geometry` says where everything stands, [`statics`] which
+//! rest lengths hold it there.
 
 mod geometry;
+pub mod statics;
 
 use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;

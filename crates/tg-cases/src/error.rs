@@ -20,6 +20,27 @@ pub enum CaseError {
     /// A simulation failed.
     #[error(transparent)]
     Run(#[from] tg_integrate::RunError),
+    /// No multipliers or tangent at a configuration.
+    #[error(transparent)]
+    Tangent(#[from] tg_tangent::TangentError),
+    /// No rest lengths hold a configuration.
+    #[error(transparent)]
+    Inverse(#[from] tg_statics::InverseError),
+    /// No equilibrium is found.
+    #[error(transparent)]
+    Forward(#[from] tg_statics::ForwardError),
+    /// No critical parameter is found.
+    #[error(transparent)]
+    Critical(#[from] tg_statics::CriticalError),
+    /// A branch of equilibria cannot be followed.
+    #[error(transparent)]
+    Continuation(#[from] tg_statics::ContinuationError),
+    /// No modes about an equilibrium.
+    #[error(transparent)]
+    Modal(#[from] tg_modal::ModalError),
+    /// Modes cannot be followed along a parameter.
+    #[error(transparent)]
+    Sweep(#[from] tg_modal::SweepError),
     /// A projection failed.
     #[error(transparent)]
     Projection(#[from] tg_model::ProjectionError),

@@ -72,6 +72,10 @@ pub struct PendulumSteps {
 /// Reference values of example 2.
 #[derive(Debug, Deserialize)]
 pub struct Example2 {
+    /// Natural frequencies \[Hz\], ascending, by rest length ratios.
+    pub frequencies: BTreeMap<String, [f64; 5]>,
+    /// Ratio α = β at which stability is lost.
+    pub critical_ratio: f64,
     /// Mass centre of triangle 3 by setup.
     #[serde(rename = "triangle3_centroid_exact")]
     pub exact: BTreeMap<String, Path>,

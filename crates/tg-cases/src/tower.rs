@@ -94,6 +94,14 @@ impl Choices {
     }
 }
 
+impl Choices {
+    /// The tower of the modal analysis (Sec. 6.2.1): no gravity, ground at rest, α = β = `ratio`.
+    pub fn modal(ratio: f64) -> Self {
+        let ground = Signal::Constant(0.0);
+        Self { alpha: ratio, beta: ratio, gravity: 0.0, ground, ..Self::paper(Setup::Un) }
+    }
+}
+
 /// The model and what is looked at.
 #[derive(Clone, Debug)]
 pub struct Tower {
@@ -105,8 +113,10 @@ pub struct Tower {
     pub vertices: Vec<Form<2>>,
     /// Cables 1 to 12.
     pub cables: Vec<CableId>,
-    /// Triangle 7.
-    top: MemberId,
+    /// Bars 1, 2, 4 and 6.
+    pub bars: [MemberId; 4],
+    /// Triangles 3, 5 and 7.
+    pub triangles: [MemberId; 3],
 }
 
 impl Tower {
@@ -172,7 +182,8 @@ impl Tower {
             vertices.push(model.form(at(k, v))?);
         }
         let centre3 = model.form(triangles[0].0.mass_centre())?;
-        Ok(Self { model, centre3, vertices, cables, top: triangles[2].0 })
+        let triangles = std::array::from_fn(|k| triangles[k].0);
+        Ok(Self { model, centre3, vertices, cables, bars, triangles })
     }
 
     /// Full velocities with triangle 7 pushed sideways at `speed` \[m/s\], not yet projected onto the constraints.
@@ -182,7 +193,7 @@ impl Tower {
     pub fn kick(&self, speed: f64) -> Result<Vec<f64>, CaseError> {
         let mut v = self.model.velocities_at_rest();
         let twist = Twist::planar(Vector2::new(speed, 0.0), 0.0);
-        self.model.set_twist(self.top, &twist, &self.model.initial_coordinates(), &mut v)?;
+        self.model.set_twist(self.triangles[2], &twist, &self.model.initial_coordinates(), &mut v)?;
         Ok(v)
     }
 
@@ -216,7 +227,7 @@ fn join(
 }
 
 /// Initial lengths of cables 1 to 12 \[m\], exact.
-fn initial_lengths() -> [f64; 12] {
+pub fn initial_lengths() -> [f64; 12] {
     let (diagonal, side) = (0.1 * 2.0_f64.sqrt(), 0.05 * 2.0_f64.sqrt());
     let guy = 0.1 * 5.0_f64.sqrt();
     [guy, guy, diagonal, diagonal, 0.1, 0.1, side, side, 0.1, 0.1, side, side]

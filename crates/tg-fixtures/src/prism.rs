@@ -41,8 +41,9 @@ pub fn prism(n: usize, tension: f64, gravity: f64, law: fn(f64) -> CableLaw) -> 
 
     let mut b = ModelBuilder::<3>::new();
     b.gravity([0.0, 0.0, -gravity])?;
-    let bars =
-        (0..n).map(|k| b.bar(&format!("bar {k}"), 1.0, bottom(k), top(k + 1))).collect::<Result<Vec<_>, _>>()?;
+    let bars = (0..n)
+        .map(|k| b.bar(&format!("bar {k}"), 1.0, bottom(k), top(k + 1)))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut cables = Vec::new();
     let rest = |length: f64, tension: f64| length - tension / STIFFNESS;
     for (name, end) in [("bottom", 0), ("top", 1)] {

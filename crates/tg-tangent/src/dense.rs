@@ -37,6 +37,10 @@ pub type RealEigen = (Vec<f64>, Mat<f64>);
 /// # Errors
 /// The decomposition does not converge.
 pub fn symmetric_eigen(x: &Mat<f64>) -> Result<RealEigen, TangentError> {
+    // faer's sizes underflow at zero.
+    if x.nrows() == 0 {
+        return Ok((Vec::new(), Mat::new()));
+    }
     let symmetric = Mat::from_fn(x.nrows(), x.ncols(), |r, c| 0.5 * (x[(r, c)] + x[(c, r)]));
     let eigen = symmetric
         .self_adjoint_eigen(Side::Lower)
@@ -51,6 +55,9 @@ pub fn symmetric_eigen(x: &Mat<f64>) -> Result<RealEigen, TangentError> {
 /// The decomposition does not converge.
 pub fn eigen(x: &Mat<f64>) -> Result<(Vec<c64>, Mat<c64>), TangentError> {
     const WHAT: TangentError = TangentError::Dense { what: "eigendecomposition" };
+    if x.nrows() == 0 {
+        return Ok((Vec::new(), Mat::new()));
+    }
     let real = x.eigenvalues().map_err(|_| WHAT)?;
     // faer 0.24's vectors of a real matrix leave residuals up to 1e-2 where pairs repeat; those of the same matrix taken
     // as complex do not.

@@ -16,16 +16,19 @@
 //! unique: the other branches (one bar stands still on the line of the feet, the other turns with triangle 3) have
 //! θ̇_0 = 0 for one of the bars, and velocities do not jump; the parallelogram continues, as it does here.
 //!
-//! Children: `mechanics`, geometry, M, Q and E; `flow`, the piecewise smooth motion and the record of its switches.
+//! Children: `mechanics`, geometry, M, Q and E; `flow`, the piecewise smooth motion and the record of its switches; `modes`, small
+//! oscillations.
 
 use super::linkage::{ANGLES, Form, Motion, Rotations};
 use super::ode::integrate;
 use super::{ReferenceError, Trajectory};
 use flow::TowerFlow;
 use mechanics::Mechanics;
+pub use modes::{Mode, Square};
 
 mod flow;
 mod mechanics;
+mod modes;
 #[cfg(test)]
 mod tests;
 

@@ -1,12 +1,16 @@
 //! Example 3: the spatial deployable tower (Sec. 6.3).
 //!
 //! - `accuracy`: runs against a path that is known at a few times;
+//! - `statics`: the rest lengths of Table 5 and the way back to both states (Sec. 6.3.1);
+//! - `modes`: natural frequencies of both states (Fig. 19);
 //! - `runs`: seismic runs from both static states (Sec. 6.3.2), and what must not matter to a run;
 //! - `deployments`: the sixteen deployments (Sec. 6.3.3).
 
 mod accuracy;
 mod deployments;
+mod modes;
 mod runs;
+mod statics;
 
 use nalgebra::Vector3;
 use tg_coords::{CoordType, Member};
@@ -14,6 +18,7 @@ use tg_integrate::State;
 use tg_model::Form;
 
 use super::mass_difference;
+use crate::deployable::statics::rest_lengths;
 use crate::deployable::{BAR_LENGTH, BAR_MASS, Choices, Configuration, Deployable, tetrahedron};
 use crate::error::CaseError;
 use crate::published::{EXACT, Upright, framework};
@@ -37,6 +42,8 @@ pub fn rows() -> Result<Vec<Row>, CaseError> {
     for configuration in Configuration::ALL {
         positions(&mut rows, configuration)?;
     }
+    statics::rows(&mut rows)?;
+    modes::rows(&mut rows)?;
     runs::rows(&mut rows)?;
     deployments::rows(&mut rows)?;
     Ok(rows.finish())
@@ -50,13 +57,13 @@ fn published(configuration: Configuration) -> &'static Upright {
     }
 }
 
-/// A static state with its reference rest lengths on resting ground.
-fn still(configuration: Configuration) -> Choices {
-    Choices::still(configuration, &published(configuration).rest)
+/// A static state on resting ground, with the rest lengths that hold it.
+fn still(configuration: Configuration) -> Result<Choices, CaseError> {
+    Ok(Choices::still(configuration, &rest_lengths(configuration)?))
 }
 
 fn counts(rows: &mut Rows) -> Result<(), CaseError> {
-    let structure = Deployable::new(&still(Configuration::Initial))?;
+    let structure = Deployable::new(&still(Configuration::Initial)?)?;
     let report = structure.model.report();
     rows.exact("free coordinates", (report.free, 54), GEOMETRY);
     rows.exact("intrinsic constraints", (report.intrinsic, 30), GEOMETRY);
@@ -82,7 +89,7 @@ fn masses(rows: &mut Rows) -> Result<(), CaseError> {
 /// Every point of an upright configuration (Table 5), and the lengths of its cables.
 fn positions(rows: &mut Rows, configuration: Configuration) -> Result<(), CaseError> {
     let (name, published) = (configuration.name(), published(configuration));
-    let structure = Deployable::new(&still(configuration))?;
+    let structure = Deployable::new(&still(configuration)?)?;
     let q = structure.model.initial_coordinates();
     let nodes = &published.nodes;
     let mut pairs: Vec<(&Form<3>, [f64; 3])> = structure.ground.iter().zip(nodes.ground).collect();

@@ -1,7 +1,7 @@
 //! Every number of the papers' examples beside ours.
 //!
 //! - [`double_pendulum`]: example 1 of the framework paper, Sec. 6.1;
-//! - [`tower`]: dynamics of example 2, Sec. 6.2.2;
+//! - [`tower`]: modes and dynamics of example 2, Sec. 6.2;
 //! - [`deployable`]: example 3, Sec. 6.3.
 
 pub mod deployable;
@@ -33,7 +33,7 @@ pub const CASES: [Case; 3] = [
     },
     Case {
         name: tower::NAME,
-        title: "framework paper, Sec. 6.2: dynamics of a planar class-3 tower",
+        title: "framework paper, Sec. 6.2: modes and dynamics of a planar class-3 tower",
         rows: tower::rows,
     },
     Case {

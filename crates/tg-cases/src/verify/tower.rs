@@ -1,4 +1,7 @@
-//! Example 2: seismic runs of the planar tower in four cable setups, against five angles (Sec. 6.2.2).
+//! Example 2: the planar tower. Seismic runs in four cable setups, against five angles (Sec. 6.2.2); in `modes`, its modal
+//! analysis (Sec. 6.2.1).
+
+mod modes;
 
 use tg_coords::CoordType;
 use tg_integrate::{NewtonOptions, Run, Symplectic};
@@ -12,6 +15,8 @@ use crate::simulate::{self, STEP, order, record, run, run_from, until_negative};
 use crate::slack::{self, SlackInterval, SlackWatch};
 use crate::tower::{Choices, Joints, Setup, Tower};
 
+pub use modes::frequency_curves;
+
 /// Name of the case.
 pub const NAME: &str = "example2";
 const MODEL: &str = "five-angle model of this project";
@@ -24,6 +29,7 @@ const GEOMETRY: &str = "geometry of the example";
 pub fn rows() -> Result<Vec<Row>, CaseError> {
     let mut rows = Rows::new(NAME);
     counts(&mut rows)?;
+    modes::rows(&mut rows)?;
     for setup in Setup::ALL {
         first_steps(&mut rows, setup)?;
     }

@@ -22,7 +22,7 @@ pub(super) fn rows(rows: &mut Rows) -> Result<(), CaseError> {
         at_rest(rows, configuration)?;
     }
     first_steps(rows)?;
-    let seismic = still(Configuration::Initial).on_seismic_ground(RESONANT);
+    let seismic = still(Configuration::Initial)?.on_seismic_ground(RESONANT);
     accuracy::rows(rows, "initial, ν = 0.5 Hz, 5 s", &seismic, &framework().example3.seismic)?;
     let (initial, target) = rayon::join(
         || Vibration::record(Configuration::Initial),
@@ -35,7 +35,7 @@ pub(super) fn rows(rows: &mut Rows) -> Result<(), CaseError> {
 
 /// Both states are static with their rest lengths.
 fn at_rest(rows: &mut Rows, configuration: Configuration) -> Result<(), CaseError> {
-    let path = top_path(&still(configuration), STEP, 1.0)?;
+    let path = top_path(&still(configuration)?, STEP, 1.0)?;
     let drift = distance(&path, &vec![path[0]; path.len()]);
     let name = format!("{}, ground at rest: drift in 1 s", configuration.name());
     rows.below(name, "m", drift, "paper, Sec. 6.3.1: static", 1e-12);
@@ -44,7 +44,7 @@ fn at_rest(rows: &mut Rows, configuration: Configuration) -> Result<(), CaseErro
 
 /// The first five steps of the scheme at h = 1e-3.
 fn first_steps(rows: &mut Rows) -> Result<(), CaseError> {
-    let structure = Deployable::new(&still(Configuration::Initial).on_seismic_ground(RESONANT))?;
+    let structure = Deployable::new(&still(Configuration::Initial)?.on_seismic_ground(RESONANT))?;
     for (number, centre) in (7..).zip(&structure.centres) {
         let published = &framework().example3.first_steps[&number.to_string()];
         let points: Vec<[f64; 3]> =
@@ -66,7 +66,7 @@ struct Vibration {
 
 impl Vibration {
     fn record(configuration: Configuration) -> Result<Self, CaseError> {
-        let structure = Deployable::new(&still(configuration).on_seismic_ground(RESONANT))?;
+        let structure = Deployable::new(&still(configuration)?.on_seismic_ground(RESONANT))?;
         let start = structure.model.initial_coordinates();
         let (mut displacements, mut watch) = (Vec::new(), SlackWatch::default());
         run(&structure.model, STEP, DURATION, |state| {
