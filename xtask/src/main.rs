@@ -22,7 +22,7 @@ enum Task {
     ///
     /// Exit code 0 if all hold, 1 if one does not, 2 if a case cannot be run.
     Verify {
-        /// Run only the case of this name (example1, example2, example3).
+        /// Run only the case of this name (example1, example2, example3, antiprism, mechanism).
         #[arg(long)]
         case: Option<String>,
         /// Print one JSON document with the rows instead of tables.

@@ -44,6 +44,17 @@ pub enum CaseError {
     /// A projection failed.
     #[error(transparent)]
     Projection(#[from] tg_model::ProjectionError),
+    /// No free bodies at a configuration.
+    #[error(transparent)]
+    FreeBody(#[from] tg_statics::FreeBodyError),
+    /// Yin's equations have no solution near the free lengths.
+    #[error(
+        "no unloaded state of an antiprism with {struts} struts near its free lengths; take at least three struts, and lateral ties shorter than the struts"
+    )]
+    Unloaded {
+        /// Number of struts.
+        struts: usize,
+    },
     /// The independent reference model cannot be solved.
     #[error("reference model: {0}")]
     Reference(#[from] crate::reference::ReferenceError),

@@ -1,12 +1,16 @@
 //! From a builder to a model: numbering of shared nodes, supports, constraints, checks.
 
+use std::sync::Arc;
+
 use crate::cables::Cables;
 use crate::constraints::{Constraint, ConstraintSource, Constraints, Named};
 use crate::drive::Drive;
 use crate::error::BuildError;
-use crate::form::add_to_node;
+use crate::form::{Form, add_to_node};
 use crate::inertia::{self, Inertia};
+use crate::load::Load;
 use crate::model::Model;
+use crate::moments::Moments;
 use crate::nodes::{MEETING, Nodes};
 use crate::parts::{Joining, JointPart, MemberId, Parts, Place, Redundancies, axis_name};
 use crate::placed::{Cable, PlacedMember};
@@ -14,7 +18,10 @@ use crate::redundancy;
 use crate::report::BuildReport;
 use crate::supports::{Supports, check_held};
 
-pub(crate) fn assemble<const D: usize>(parts: &Parts<D>) -> Result<Model<D>, BuildError> {
+pub(crate) fn assemble<const D: usize>(parts: Parts<D>) -> Result<Model<D>, BuildError> {
+    let parts = Arc::new(parts);
+    let owned = Arc::clone(&parts);
+    let parts = parts.as_ref();
     let mut nodes = Nodes::new(parts);
     let allowed = MEETING * nodes.size();
     share_points(parts, &mut nodes, allowed)?;
@@ -51,11 +58,12 @@ pub(crate) fn assemble<const D: usize>(parts: &Parts<D>) -> Result<Model<D>, Bui
     }
 
     let (cables, in_equations, idle_cables) = cables(parts, &nodes, is_free)?;
-    let loads = parts
-        .loads
-        .iter()
-        .map(|load| nodes.point(parts, "load", &load.name, load.place))
-        .collect::<Result<_, _>>()?;
+    let load_starts = load_starts(parts);
+    let forces = forces(parts, &nodes, &load_starts)?;
+    let moments = Moments::of(parts, &nodes, |k| load_starts[k], is_free)?;
+    let mut stiffness_pattern = in_equations.stiffness_pattern::<D>();
+    let cable_entries = stiffness_pattern.len();
+    stiffness_pattern.extend(moments.stiffness_pattern());
     let members: Vec<PlacedMember<D>> = nodes.place_members(parts);
     let intrinsic = list.iter().filter(|c| matches!(c.constraint, Constraint::Dot { .. })).count();
     let report = BuildReport {
@@ -80,12 +88,15 @@ pub(crate) fn assemble<const D: usize>(parts: &Parts<D>) -> Result<Model<D>, Bui
         constraint_sources: list.iter().map(|c| c.source.clone()).collect(),
         constraint_names: list.into_iter().map(|c| c.name).collect(),
         node_names: nodes.names(),
-        stiffness_pattern: in_equations.stiffness_pattern::<D>(),
+        stiffness_pattern,
+        cable_entries,
         damping_pattern: in_equations.damping_pattern::<D>(),
         in_equations,
         cables,
-        loads,
-        load_names: parts.loads.iter().map(|load| load.name.clone()).collect(),
+        parts: owned,
+        forces,
+        moments,
+        load_starts,
         anchors: nodes.anchors(),
         weight: weight(parts, &members, q.len()),
         members,
@@ -94,6 +105,29 @@ pub(crate) fn assemble<const D: usize>(parts: &Parts<D>) -> Result<Model<D>, Bui
         initial: q,
         report,
     })
+}
+
+/// First input of each load behind the rest lengths, and the end of all.
+fn load_starts<const D: usize>(parts: &Parts<D>) -> Vec<usize> {
+    let mut starts = vec![parts.cables.len()];
+    for load in &parts.loads {
+        starts.push(starts[starts.len() - 1] + load.components.len());
+    }
+    starts
+}
+
+fn forces<const D: usize>(
+    parts: &Parts<D>,
+    nodes: &Nodes<D>,
+    starts: &[usize],
+) -> Result<Vec<(Form<D>, usize)>, BuildError> {
+    let mut forces = Vec::new();
+    for (part, &start) in parts.loads.iter().zip(starts) {
+        if let Load::Force(place) = part.load {
+            forces.push((nodes.point(parts, "load", &part.name, place)?, start));
+        }
+    }
+    Ok(forces)
 }
 
 /// Generalised force of gravity over the full coordinates: the weight at each mass centre (Sec. 3.3).

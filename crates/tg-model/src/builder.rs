@@ -1,6 +1,7 @@
 //! The builder: mutable, names things, used once.
 //!
-//! Parts are checked for themselves when they are added and against each other in [`ModelBuilder::build`].
+//! Parts are checked for themselves when they are added and against each other in [`ModelBuilder::build`]. Loads are
+//! added in [`crate::load`].
 
 use std::collections::HashSet;
 
@@ -12,15 +13,15 @@ use crate::error::BuildError;
 use crate::law::{CableLaw, not_negative};
 use crate::model::Model;
 use crate::parts::{
-    AnchorId, AnchorPart, CableId, CablePart, Joining, JointPart, LoadId, LoadPart, MemberId, MemberPart,
-    Parts, Place, Redundancies, SupportPart, axis_name, coordinates,
+    AnchorId, AnchorPart, CableId, CablePart, Joining, JointPart, MemberId, MemberPart, Parts, Place,
+    Redundancies, SupportPart, axis_name, coordinates,
 };
 use crate::signal::Signal;
 
 /// Collects the parts of a structure in D-dimensional space.
 #[derive(Clone, Debug)]
 pub struct ModelBuilder<const D: usize> {
-    parts: Parts<D>,
+    pub(crate) parts: Parts<D>,
     names: HashSet<(&'static str, String)>,
 }
 
@@ -195,33 +196,15 @@ impl<const D: usize> ModelBuilder<D> {
         Ok(CableId(self.parts.cables.len() - 1))
     }
 
-    /// Adds a force at a place, fixed in space: `factor(t) · force` \[N\], eq. (25).
-    ///
-    /// # Errors
-    /// The name is taken, the force is not finite or the signal wrong.
-    pub fn load(
-        &mut self,
-        name: &str,
-        place: impl Into<Place<D>>,
-        force: [f64; D],
-        factor: impl Into<Signal>,
-    ) -> Result<LoadId, BuildError> {
-        let force = finite("load", name, "force", force)?;
-        let factor = checked_signal("load", name, factor.into())?;
-        self.take_name("load", name)?;
-        self.parts.loads.push(LoadPart { name: name.into(), place: place.into(), force, factor });
-        Ok(LoadId(self.parts.loads.len() - 1))
-    }
-
     /// Checks the structure as a whole and freezes it.
     ///
     /// # Errors
     /// See [`BuildError`]; each names the offending part.
     pub fn build(self) -> Result<Model<D>, BuildError> {
-        assemble(&self.parts)
+        assemble(self.parts)
     }
 
-    fn take_name(&mut self, kind: &'static str, name: &str) -> Result<(), BuildError> {
+    pub(crate) fn take_name(&mut self, kind: &'static str, name: &str) -> Result<(), BuildError> {
         if self.names.insert((kind, name.into())) {
             Ok(())
         } else {
@@ -230,7 +213,7 @@ impl<const D: usize> ModelBuilder<D> {
     }
 }
 
-fn finite<const D: usize>(
+pub(crate) fn finite<const D: usize>(
     kind: &'static str,
     name: &str,
     what: &'static str,
@@ -243,7 +226,7 @@ fn finite<const D: usize>(
     }
 }
 
-fn checked_signal(kind: &'static str, name: &str, signal: Signal) -> Result<Signal, BuildError> {
+pub(crate) fn checked_signal(kind: &'static str, name: &str, signal: Signal) -> Result<Signal, BuildError> {
     signal.check().map_err(|source| BuildError::Signal { kind, name: name.into(), source })?;
     Ok(signal)
 }

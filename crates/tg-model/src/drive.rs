@@ -1,6 +1,7 @@
 //! Everything that depends on time: prescribed coordinates q̃(t) and inputs u(t).
 //!
-//! Inputs are the rest lengths of all cables, then the D components of each point force.
+//! Inputs are the rest lengths of all cables, then the components of each load: D of a force, 1 or 3 of a moment in the
+//! plane or in space, 2 of a universal joint's moments.
 
 use crate::parts::Parts;
 use crate::signal::Signal;
@@ -47,7 +48,7 @@ impl Drive {
             }
         }
         let rests = parts.cables.iter().map(|cable| (1.0, &cable.rest));
-        let loads = parts.loads.iter().flat_map(|load| load.force.iter().map(|&f| (f, &load.factor)));
+        let loads = parts.loads.iter().flat_map(|load| load.components.iter().map(|&f| (f, &load.factor)));
         let (mut inputs, mut driven) = (Vec::new(), Vec::new());
         for (i, (factor, signal)) in rests.chain(loads).enumerate() {
             inputs.push(factor * signal.at(0.0).0);

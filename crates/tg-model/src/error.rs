@@ -106,6 +106,16 @@ pub enum BuildError {
         /// What is meaningless.
         what: &'static str,
     },
+    /// A moment on a member that cannot carry it.
+    #[error("load \"{name}\" on \"{member}\": {what}")]
+    MeaninglessMoment {
+        /// Name of the load.
+        name: String,
+        /// Name of the member.
+        member: String,
+        /// Why, and what to do.
+        what: &'static str,
+    },
     /// Joints by sharing make two points of one member the same.
     #[error(
         "joints by sharing make two basic points of \"{member}\" one; a rigid member cannot meet itself: check which points they name"

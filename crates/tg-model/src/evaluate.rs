@@ -63,18 +63,20 @@ impl<const D: usize> Mechanics for Model<D> {
 
     fn force(&self, at: At<'_>, f: &mut [f64]) {
         f.copy_from_slice(&self.weight);
-        for (k, form) in self.loads.iter().enumerate() {
-            let input = self.load_input(k);
-            let load = SVector::<f64, D>::from_column_slice(&at.u[input..input + D]);
+        for (form, input) in &self.forces {
+            let load = SVector::<f64, D>::from_column_slice(&at.u[*input..input + D]);
             for &(node, w) in form.terms() {
                 crate::form::add_to_node(f, node, &(load * w));
             }
         }
+        self.moments.force(at, f);
         self.in_equations.force::<D>(at, f);
     }
 
     fn stiffness(&self, at: At<'_>, values: &mut [f64]) {
-        self.in_equations.stiffness::<D>(at, values);
+        let (cables, moments) = values.split_at_mut(self.cable_entries);
+        self.in_equations.stiffness::<D>(at, cables);
+        self.moments.stiffness(at, moments);
     }
 
     fn damping(&self, at: At<'_>, values: &mut [f64]) {
@@ -102,8 +104,9 @@ impl<const D: usize> Mechanics for Model<D> {
             cable.law.static_tension(cable.form.eval(at.q).norm(), *rest).abs()
         };
         let tensions = self.cables.iter().zip(at.u).map(tension);
-        let loads = at.u[self.cables.len()..].iter().chain(&self.weight).map(|f| f.abs());
-        tensions.chain(loads).fold(0.0, f64::max)
+        let forces = self.forces.iter().flat_map(|(_, input)| &at.u[*input..input + D]);
+        let given = forces.chain(&self.weight).map(|f| f.abs());
+        tensions.chain(given).fold(self.moments.largest_force(at), f64::max)
     }
 
     fn coordinate_name(&self, coordinate: usize) -> String {

@@ -26,6 +26,7 @@
 //! | (19) | joints by sharing or by extrinsic constraints | [`ModelBuilder::joint`], [`Joining`] |
 //! | (20), (21) | prescribed and free coordinates, anchors | [`ModelBuilder::support`], [`ModelBuilder::anchor`], [`Mechanics::free`] |
 //! | (25) | point forces and gravity | [`ModelBuilder::load`], [`ModelBuilder::gravity`] |
+//! | (22) of the antiprism paper | moments on members and about joints' axes | [`Load`], [`MomentAxes`] |
 //! | (26), (27) | cable vector, length and rate | [`Model::cable_form`], [`CableState`] |
 //! | (28), (29) | generalised tension force | [`Mechanics::force`] |
 //! | (30) | constitutive law with slacking | [`CableLaw`] |
@@ -48,8 +49,10 @@ mod form;
 mod inertia;
 mod law;
 mod layout;
+mod load;
 mod mechanics;
 mod model;
+mod moments;
 mod nodes;
 mod parts;
 mod placed;
@@ -57,6 +60,7 @@ mod projector;
 mod redundancy;
 mod report;
 mod signal;
+mod structure;
 mod supports;
 mod tension;
 mod tensioned;
@@ -69,10 +73,12 @@ pub use form::Form;
 pub use inertia::Inertia;
 pub use law::{CableLaw, Tension, TensionLaw};
 pub use layout::Layout;
+pub use load::{Load, MomentAxes};
 pub use mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
 pub use model::{Energy, Model};
 pub use parts::{AnchorId, CableId, Joining, LoadId, MemberId, Place, Redundancies};
 pub use projector::{Moved, ProjectionError, Projector};
 pub use report::{BuildReport, Redundancy};
 pub use signal::{Signal, SignalError, SignalFn, Table};
+pub use structure::{Joint, Support};
 pub use tensioned::Tensioned;

@@ -6,7 +6,7 @@
 //! ```
 //! Everything is written in the *full* coordinates q (free and prescribed together); [`Mechanics::free`] says which
 //! are unknown. Time enters only through the prescribed coordinates and through the inputs u (rest lengths, then
-//! point forces), so that a solver may drive either by time or by any other parameter. Patterns and constant
+//! the components of loads), so that a solver may drive either by time or by any other parameter. Patterns and constant
 //! matrices are given once; evaluation fills flat slices in that fixed order and allocates nothing.
 
 /// Sizes of a mechanical system.

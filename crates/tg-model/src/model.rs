@@ -1,5 +1,8 @@
 //! A structure after `build()`: immutable, shared by threads, everything precomputed.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use nalgebra::SVector;
 use tg_coords::{CoordsError, Member, PoseFit, Twist};
 
@@ -11,7 +14,8 @@ use crate::form::{Form, node};
 use crate::inertia::Inertia;
 use crate::law::CableLaw;
 use crate::mechanics::{Entry, HessianEntry, Mechanics};
-use crate::parts::{AnchorId, CableId, LoadId, MemberId, Place};
+use crate::moments::Moments;
+use crate::parts::{AnchorId, CableId, LoadId, MemberId, Parts, Place};
 use crate::placed::{Cable, PlacedMember};
 use crate::report::BuildReport;
 
@@ -26,8 +30,13 @@ pub struct Model<const D: usize> {
     pub(crate) anchors: Vec<usize>,
     pub(crate) cables: Vec<Cable<D>>,
     pub(crate) in_equations: Cables,
-    pub(crate) loads: Vec<Form<D>>,
-    pub(crate) load_names: Vec<String>,
+    /// What the builder collected, for questions about single parts.
+    pub(crate) parts: Arc<Parts<D>>,
+    /// Point forces with their first input.
+    pub(crate) forces: Vec<(Form<D>, usize)>,
+    pub(crate) moments: Moments,
+    /// First input of each load, and the end of all.
+    pub(crate) load_starts: Vec<usize>,
     /// Generalised force of gravity, constant.
     pub(crate) weight: Vec<f64>,
     pub(crate) constraints: Constraints,
@@ -38,7 +47,10 @@ pub struct Model<const D: usize> {
     pub(crate) node_names: Vec<String>,
     pub(crate) jacobian_pattern: Vec<(usize, usize)>,
     pub(crate) hessian: Vec<HessianEntry>,
+    /// Entries of cables, then of moments.
     pub(crate) stiffness_pattern: Vec<(usize, usize)>,
+    /// Number of the former.
+    pub(crate) cable_entries: usize,
     pub(crate) damping_pattern: Vec<(usize, usize)>,
     pub(crate) mass: Vec<Entry>,
     pub(crate) inertia: Inertia,
@@ -57,7 +69,8 @@ pub struct Energy {
     pub elastic: f64,
     /// -Σ m g·r_g, zero at the origin.
     pub gravity: f64,
-    /// -Σ f·r of the point forces as they are at that time.
+    /// Potential of the loads as they are at that time: -Σ f·r of point forces, -M θ of moments in the plane, -(M_ε ε +
+    /// M_β β) of universal joints. Moments on members of space have none and are left out.
     pub load: f64,
 }
 
@@ -91,7 +104,8 @@ impl<const D: usize> Model<D> {
         v
     }
 
-    /// Inputs u (rest lengths, then force components) at time `t` \[s\].
+    /// Inputs u at time `t` \[s\]: the rest lengths of all cables \[m\], then the components of each load in the order in
+    /// which they were added (see [`Model::load_inputs`]).
     pub fn inputs_at(&self, t: f64) -> Vec<f64> {
         let mut u = vec![0.0; self.drive.input_count()];
         self.drive.inputs(t, &mut u);
@@ -136,6 +150,12 @@ impl<const D: usize> Model<D> {
     #[track_caller]
     pub fn member_nodes(&self, member: MemberId, x: &[f64]) -> Vec<SVector<f64, D>> {
         self.members[member.0].nodes.iter().map(|&n| node(x, n)).collect()
+    }
+
+    /// Nodes that hold a member's natural coordinates, in the order of its coordinate type; see [`Model::node_name`].
+    #[track_caller]
+    pub fn member_node_ids(&self, member: MemberId) -> &[usize] {
+        &self.members[member.0].nodes
     }
 
     /// Pose of a member's local frame, best fit.
@@ -206,10 +226,17 @@ impl<const D: usize> Model<D> {
         &self.members[member.0].name
     }
 
-    /// Name of a point force.
+    /// Name of a load.
     #[track_caller]
     pub fn load_name(&self, load: LoadId) -> &str {
-        &self.load_names[load.0]
+        &self.parts.loads[load.0].name
+    }
+
+    /// The inputs that are a load's components: D of a force \[N\], 1 or 3 of a moment in the plane or in space, M_ε and M_β
+    /// of a universal joint \[N m\].
+    #[track_caller]
+    pub fn load_inputs(&self, load: LoadId) -> Range<usize> {
+        self.load_starts[load.0]..self.load_starts[load.0 + 1]
     }
 
     /// The vector l = J q of a cable (26), from its first place to its second.
@@ -276,6 +303,8 @@ impl<const D: usize> Model<D> {
         self.free.iter().for_each(|&i| free[i] = true);
         changed.in_equations = Cables::of(&changed.cables, |i| free[i]);
         changed.stiffness_pattern = changed.in_equations.stiffness_pattern::<D>();
+        changed.cable_entries = changed.stiffness_pattern.len();
+        changed.stiffness_pattern.extend(changed.moments.stiffness_pattern());
         changed.damping_pattern = changed.in_equations.damping_pattern::<D>();
         Ok(changed)
     }
@@ -284,15 +313,14 @@ impl<const D: usize> Model<D> {
     #[track_caller]
     pub fn energy(&self, q: &[f64], v: &[f64], u: &[f64]) -> Energy {
         let dot = |f: &[f64]| -f.iter().zip(q).map(|(f, q)| f * q).sum::<f64>();
-        let load = |(k, form): (usize, &Form<D>)| {
-            let f = SVector::<f64, D>::from_column_slice(&u[self.load_input(k)..self.load_input(k) + D]);
-            -form.eval(q).dot(&f)
+        let load = |(form, input): &(Form<D>, usize)| {
+            -form.eval(q).dot(&SVector::<f64, D>::from_column_slice(&u[*input..input + D]))
         };
         Energy {
             kinetic: self.inertia.kinetic_energy(v),
             elastic: self.in_equations.energy::<D>(q, u),
             gravity: dot(&self.weight),
-            load: self.loads.iter().enumerate().map(load).sum(),
+            load: self.forces.iter().map(load).sum::<f64>() + self.moments.energy(q, u),
         }
     }
 
@@ -304,11 +332,6 @@ impl<const D: usize> Model<D> {
         let scaled = phi.iter().zip(self.dropped.scales()).map(|(phi, s)| phi.abs() / s);
         // NaN stays: it is no small violation.
         scaled.fold(0.0, |worst, x| if x <= worst || worst.is_nan() { worst } else { x })
-    }
-
-    /// First input of load `k`.
-    pub(crate) fn load_input(&self, k: usize) -> usize {
-        self.cables.len() + k * D
     }
 
     /// This model as the solvers see it.

@@ -5,6 +5,7 @@ use tg_coords::{CoordsError, Member, Pose};
 
 use crate::error::BuildError;
 use crate::law::CableLaw;
+use crate::load::Load;
 use crate::signal::Signal;
 
 /// A rigid member of a structure.
@@ -19,7 +20,7 @@ pub struct AnchorId(pub(crate) usize);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CableId(pub(crate) usize);
 
-/// A point force.
+/// A load: a force or moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LoadId(pub(crate) usize);
 
@@ -132,8 +133,9 @@ pub(crate) struct CablePart<const D: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct LoadPart<const D: usize> {
     pub(crate) name: String,
-    pub(crate) place: Place<D>,
-    pub(crate) force: SVector<f64, D>,
+    pub(crate) load: Load<D>,
+    /// Components where the factor is one \[N or N m\].
+    pub(crate) components: Vec<f64>,
     pub(crate) factor: Signal,
 }
 

@@ -31,7 +31,7 @@ pub trait Tensioned: Mechanics {
     /// Whether the cable can only pull.
     fn only_pulls(&self, cable: usize) -> bool;
     /// Values of -∂F/∂q, in the order of [`Mechanics::stiffness_pattern`], of cables that keep the given tensions:
-    /// the geometric stiffness Jᵀ (f/l)(I - l̂ l̂ᵀ) J.
+    /// the geometric stiffness Jᵀ (f/l)(I - l̂ l̂ᵀ) J. Loads are left out: their entries are zero.
     fn geometric_stiffness(&self, q: &[f64], tension: &[f64], values: &mut [f64]);
     /// Full velocities of the motions as a rigid whole at q: D translations, then D(D-1)/2 rotations about the origin.
     fn rigid_motions(&self, q: &[f64]) -> Vec<Vec<f64>>;
@@ -86,7 +86,9 @@ impl<const D: usize> Tensioned for Model<D> {
     }
 
     fn geometric_stiffness(&self, q: &[f64], tension: &[f64], values: &mut [f64]) {
-        self.in_equations.geometric_stiffness::<D>(At { q, v: &[], u: &[], taut: None }, tension, values);
+        let (cables, moments) = values.split_at_mut(self.cable_entries);
+        self.in_equations.geometric_stiffness::<D>(At { q, v: &[], u: &[], taut: None }, tension, cables);
+        moments.fill(0.0);
     }
 
     fn rigid_motions(&self, q: &[f64]) -> Vec<Vec<f64>> {

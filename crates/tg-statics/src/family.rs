@@ -51,7 +51,7 @@ pub struct InputFamily<'s> {
 }
 
 impl<'s> InputFamily<'s> {
-    /// Inputs `origin + p direction` (rest lengths \[m\], then force components \[N\]).
+    /// Inputs `origin + p direction` (rest lengths \[m\], then the components of loads \[N or N m\]).
     ///
     /// # Panics
     /// When the vectors do not have the length of the structure's inputs.

@@ -8,6 +8,7 @@
 //! | equation | question | item |
 //! |---|---|---|
 //! | (31) | does this configuration balance, and who carries what? | [`EquilibriumReport`], [`Configuration`] |
+//! | Newton's laws, member by member | the same without multipliers: every member alone | [`FreeBodyReport`] |
 //! | null spaces of B and Bᵀ | self-stress states, mechanisms, rigid motions | [`SelfStress`] |
 //! | product forces | can prestress stiffen the mechanisms? | [`prestress_stability`] |
 //! | (32) to (35) | which force densities or rest lengths hold it? | [`InverseStatics`], [`Request`] |
@@ -46,18 +47,24 @@
 
 mod branch;
 mod cable_equilibrium;
+mod choice;
 mod continuation;
 mod continuation_error;
+mod continuation_options;
 mod critical;
 mod cutting_list;
+mod events;
 mod family;
 mod forward;
 mod forward_error;
+mod forward_options;
+mod free_body;
 mod gauge;
 mod inverse;
 mod inverse_error;
 mod newton;
 mod newton_system;
+mod path;
 mod prestress;
 mod program;
 mod rank;
@@ -67,17 +74,22 @@ mod request;
 mod rigid;
 mod root;
 mod self_stress;
+mod size;
+mod solution;
 mod stability;
 
 pub use branch::{Branch, BranchEnd, BranchPoint, Event, EventKind};
-pub use continuation::{ContinuationOptions, continuation};
+pub use continuation::continuation;
 pub use continuation_error::ContinuationError;
+pub use continuation_options::ContinuationOptions;
 pub use critical::{Critical, CriticalError, critical_parameter};
 pub use cutting_list::CuttingRow;
 pub use family::{Family, InputFamily, Instance, StiffnessFamily};
-pub use forward::{Equilibrium, Forward, ForwardOptions, ForwardReport, Seek};
+pub use forward::{Equilibrium, Forward};
 pub use forward_error::ForwardError;
-pub use inverse::{Answer, InverseStatics, SolutionSet};
+pub use forward_options::{ForwardOptions, ForwardReport, Seek};
+pub use free_body::{Action, FreeBody, FreeBodyError, FreeBodyReport, Line, Source, Wrench};
+pub use inverse::InverseStatics;
 pub use inverse_error::InverseError;
 pub use prestress::{PrestressError, PrestressStability, prestress_stability};
 pub use program::ProgramError;
@@ -85,5 +97,6 @@ pub use rank::Rank;
 pub use report::{EquilibriumReport, JointReaction, MemberForces, NodeForce};
 pub use request::{Given, Goal, Request, Unknown};
 pub use self_stress::SelfStress;
+pub use solution::{Answer, SolutionSet};
 pub use stability::{Stability, Verdict, stability, stability_with};
 pub use tg_tangent::Configuration;

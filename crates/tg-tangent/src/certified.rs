@@ -7,7 +7,7 @@
 use tg_model::Mechanics;
 
 use crate::configuration::Configuration;
-use crate::eigen::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
+use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
 use crate::entries::Entries;
 use crate::error::TangentError;
 use crate::lanczos::{Krylov, Operator, RitzPair, dot};

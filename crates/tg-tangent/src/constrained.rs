@@ -3,7 +3,7 @@
 use tg_model::Mechanics;
 
 use crate::configuration::Configuration;
-use crate::eigen::Metric;
+use crate::spectrum::Metric;
 use crate::error::TangentError;
 use crate::shift_invert::ShiftInvert;
 

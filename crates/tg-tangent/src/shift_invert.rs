@@ -5,7 +5,7 @@ use tg_sparse::{Inertia, SaddleSystem};
 
 use crate::augmentation::Augmentation;
 use crate::configuration::Configuration;
-use crate::eigen::Metric;
+use crate::spectrum::Metric;
 use crate::error::TangentError;
 
 const STIFFNESS: usize = 0;

@@ -4,17 +4,21 @@
 //! `M(θ) θ̈ = Q(θ, θ̇, t)` of the planar examples, statics and modes of the spatial one. Nothing here uses another `tg-*`
 //! crate.
 //!
+//! - [`antiprism`]: the antiprism paper's virtual work in ε, β and the feet's positions;
 //! - [`double_pendulum`]: example 1, two angles, Lagrange's equations in closed form;
 //! - [`tower`]: example 2, five angles, cables that may slacken, moving ground;
 //! - [`deployable`]: example 3, twenty-four coordinates, potential and kinetic energy in dual numbers;
+//! - [`mechanism`]: the compliant-mechanism paper's potential in two angles, and all its equilibria by interval search;
 //! - `linkage`: positions, velocities and inertia of points carried by rotating arms (the tower's kinematics);
 //! - `gauss`: one Gauss collocation step of order 16 with its interpolating polynomial;
 //! - `ode`: step size control, requested output times and located events over that step.
 
+pub mod antiprism;
 pub mod deployable;
 pub mod double_pendulum;
 mod gauss;
 mod linkage;
+pub mod mechanism;
 mod ode;
 pub mod tower;
 
@@ -55,6 +59,11 @@ pub enum ReferenceError {
     },
     /// A mass matrix is not positive definite.
     MassMatrix,
+    /// Newton's method found no equilibrium.
+    Equilibrium {
+        /// Largest generalised force left.
+        residual: f64,
+    },
 }
 
 impl fmt::Display for ReferenceError {
@@ -71,6 +80,10 @@ impl fmt::Display for ReferenceError {
             Self::Chatter { t } => write!(
                 f,
                 "a cable switches without end at t = {t} s: start with lengths that differ from the rest lengths"
+            ),
+            Self::Equilibrium { residual } => write!(
+                f,
+                "Newton's method found no equilibrium, a generalised force of {residual:.1e} is left: start nearer"
             ),
             Self::MassMatrix => {
                 write!(f, "the mass matrix is not positive definite: check that the masses are positive")

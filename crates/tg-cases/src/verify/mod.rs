@@ -1,11 +1,15 @@
 //! Every number of the papers' examples beside ours.
 //!
+//! - [`antiprism`]: both examples of the antiprism paper;
 //! - [`double_pendulum`]: example 1 of the framework paper, Sec. 6.1;
 //! - [`tower`]: modes and dynamics of example 2, Sec. 6.2;
-//! - [`deployable`]: example 3, Sec. 6.3.
+//! - [`deployable`]: example 3, Sec. 6.3;
+//! - [`mechanism`]: the compliant-mechanism paper, all equilibria.
 
+pub mod antiprism;
 pub mod deployable;
 pub mod double_pendulum;
+pub mod mechanism;
 pub mod tower;
 
 use tg_coords::MassMatrix;
@@ -25,7 +29,7 @@ pub struct Case {
 }
 
 /// All cases in the order of the papers.
-pub const CASES: [Case; 3] = [
+pub const CASES: [Case; 5] = [
     Case {
         name: double_pendulum::NAME,
         title: "framework paper, Sec. 6.1: dynamics of a double pendulum",
@@ -40,6 +44,16 @@ pub const CASES: [Case; 3] = [
         name: deployable::NAME,
         title: "framework paper, Sec. 6.3: a spatial deployable tower",
         rows: deployable::rows,
+    },
+    Case {
+        name: antiprism::NAME,
+        title: "antiprism paper: static analysis of tensegrity structures, both examples",
+        rows: antiprism::rows,
+    },
+    Case {
+        name: mechanism::NAME,
+        title: "compliant-mechanism paper: all equilibria of its three cases",
+        rows: mechanism::rows,
     },
 ];
 

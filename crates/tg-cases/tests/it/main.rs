@@ -1,5 +1,7 @@
 //! The cases as tests: every verified number holds, and key numbers do not change unseen.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod antiprism;
+mod mechanism;
 mod rows;
 mod snapshots;

@@ -4,6 +4,7 @@
 mod continuation;
 mod equilibrium;
 mod forward;
+mod free_body;
 mod inverse;
 mod prism;
 mod structures;
