@@ -6,8 +6,9 @@ use tg_tangent::{Configuration, EigenOptions, EigenPair, Metric, TangentError, d
 use thiserror::Error;
 
 use crate::family::Family;
-use crate::forward::{Forward, ForwardOptions};
+use crate::forward::Forward;
 use crate::forward_error::ForwardError;
+use crate::forward_options::ForwardOptions;
 use crate::rigid::RigidMotions;
 use crate::root::find_root;
 

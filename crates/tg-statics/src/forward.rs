@@ -11,11 +11,13 @@ use tg_model::{At, Tensioned};
 use tg_tangent::{Configuration, EigenOptions, Metric, Sign, TangentError, balance, lowest};
 
 use crate::forward_error::ForwardError;
+use crate::forward_options::{ForwardOptions, ForwardReport, Seek};
 use crate::gauge::held_coordinates;
 use crate::newton::{NewtonRun, newton};
 use crate::newton_system::NewtonSystem;
 use crate::relaxation::Relaxation;
 use crate::rigid::RigidMotions;
+use crate::size::size;
 
 /// Residual forces at which relaxation hands over to Newton's method, one after the other.
 const HANDOVERS: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
@@ -29,61 +31,6 @@ const NUDGE: f64 = 1e-2;
 const MOST_NUDGES: u32 = 8;
 /// Stops after which relaxation has left an unstable equilibrium: it gathers speed until it is past the next minimum.
 const LEAVING_STOPS: u32 = 1;
-
-/// Which equilibrium is wanted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Seek {
-    /// The one that Newton's method reaches, stable or not.
-    #[default]
-    Any,
-    /// One without negative eigenvalue of the reduced Hessian.
-    Stable,
-}
-
-/// Settings of forward statics.
-#[derive(Clone, Copy, Debug)]
-pub struct ForwardOptions {
-    /// Residual force per largest force at which forces balance. Rounding leaves some 1e-15; 1e-12 is reached by every
-    /// structure in the tests.
-    pub tolerance: f64,
-    /// Newton iterations per load step. From near, four or five do; a far start takes some tens.
-    pub max_iterations: u32,
-    /// Which equilibrium is wanted.
-    pub seek: Seek,
-    /// Whether dynamic relaxation may take over.
-    pub relax: bool,
-    /// Load steps of [`Forward::solve_from`].
-    pub load_steps: u32,
-}
-
-impl Default for ForwardOptions {
-    fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 60, seek: Seek::Any, relax: true, load_steps: 1 }
-    }
-}
-
-/// What it took to find an equilibrium.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ForwardReport {
-    /// Newton iterations, all load steps together.
-    pub iterations: u32,
-    /// Load steps that were accepted.
-    pub load_steps: u32,
-    /// Steps of dynamic relaxation; zero where Newton's method sufficed.
-    pub relaxation_steps: u32,
-    /// Stops at peaks of kinetic energy.
-    pub relaxation_stops: u32,
-    /// Unstable equilibria that were left on the way to a stable one.
-    pub left_unstable: u32,
-    /// Rigid motions without stiffness, gauged.
-    pub gauged: usize,
-    /// Systems that needed the pivoting factorisation.
-    pub fallbacks: u64,
-    /// Residual force per largest force.
-    pub residual: f64,
-    /// Scaled violation of the constraints.
-    pub constraint_residual: f64,
-}
 
 /// An equilibrium and how it was found.
 #[derive(Clone, Debug)]
@@ -233,8 +180,7 @@ impl<'s> Walk<'s> {
                 return Ok(());
             };
             self.report.left_unstable += 1;
-            let scales = self.structure.mechanics().constraint_scales();
-            let size = scales.iter().fold(0.0_f64, |a, s| a.max(s.sqrt())).max(f64::MIN_POSITIVE);
+            let size = size(self.structure, &self.q);
             self.q.iter_mut().zip(&pair.shape).for_each(|(q, x)| *q += NUDGE * size * x);
             if !self.relax(u, LEAVING_STOPS)? {
                 return Err(self.failure(u, 1.0)?);

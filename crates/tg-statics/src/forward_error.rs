@@ -3,7 +3,7 @@
 use tg_tangent::{Configuration, TangentError};
 use thiserror::Error;
 
-use crate::forward::ForwardReport;
+use crate::forward_options::ForwardReport;
 
 /// Why no equilibrium was found.
 #[derive(Debug, Error)]

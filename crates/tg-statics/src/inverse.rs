@@ -13,17 +13,15 @@ use tg_tangent::faer::Mat;
 use tg_tangent::{Configuration, dense};
 
 use crate::cable_equilibrium::CableEquilibrium;
-use crate::cutting_list::CuttingRow;
+use crate::choice::{Affine, TensionRows};
 use crate::inverse_error::InverseError;
-use crate::program::{Program, ProgramError};
 use crate::rank::{Rank, TOLERANCE};
-use crate::request::{Goal, Request, Unknown};
+use crate::request::{Request, Unknown};
+use crate::solution::{Answer, SolutionSet};
 
 /// Largest residual force per largest force at which a configuration can be held: what rounding of coordinates to twelve
 /// digits leaves. A load that no cable resists leaves a share of itself.
 const CONSISTENT: f64 = 1e-9;
-/// Tension beyond a bound, per largest tension, that the programmes' accuracy explains.
-const BOUND_ACCURACY: f64 = 1e-7;
 
 /// Inverse statics of one configuration.
 pub struct InverseStatics<'s> {
@@ -31,44 +29,6 @@ pub struct InverseStatics<'s> {
     at: Configuration,
     cables: CableEquilibrium,
     load: Mat<f64>,
-}
-
-/// All values of the unknowns that hold the configuration: x = particular + Σ w_k null_space_k.
-#[derive(Clone, Debug)]
-pub struct SolutionSet {
-    /// Which unknowns.
-    pub unknown: Unknown,
-    /// Rank of B_x over the unknowns that are not given, ties applied.
-    pub rank: Rank,
-    /// Solution of minimum norm among the unknowns that are not given, all cables.
-    pub particular: Vec<f64>,
-    /// Orthonormal directions in which the solution may change, all cables; empty where it is unique.
-    pub null_space: Vec<Vec<f64>>,
-    /// Largest residual force per largest force.
-    pub residual: f64,
-}
-
-/// One choice of rest lengths, and what follows from it.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    /// Tension f \[N\] of each cable, positive when it pulls.
-    pub tensions: Vec<f64>,
-    /// Force density γ = f/l \[N/m\] of each cable.
-    pub force_densities: Vec<f64>,
-    /// Rest length μ \[m\] of each cable: the inputs that hold the configuration.
-    pub rest_lengths: Vec<f64>,
-    /// Cables whose law only pulls and that would have to push: the configuration cannot be held so.
-    pub pushing: Vec<usize>,
-    /// The set that the answer was chosen from.
-    pub set: SolutionSet,
-    lengths: Vec<f64>,
-    names: Vec<String>,
-}
-
-/// f = slope · x + offset, cable by cable.
-struct Affine {
-    slope: Vec<f64>,
-    offset: Vec<f64>,
 }
 
 impl<'s> InverseStatics<'s> {
@@ -165,82 +125,14 @@ impl<'s> InverseStatics<'s> {
     pub fn solve(&self, request: &Request) -> Result<Answer, InverseError> {
         let set = self.solutions(request)?;
         let affine = self.affine(request.unknown)?;
-        let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let goal: Vec<f64> = match &request.goal {
-            Goal::MinimumNorm => vec![0.0; set.null_space.len()],
-            Goal::Closest(values) => {
-                let apart: Vec<f64> = values.iter().zip(&set.particular).map(|(t, x)| t - x).collect();
-                set.null_space.iter().map(|z| inner(z, &apart)).collect()
-            }
-        };
         let tension_rows = TensionRows { set: &set, affine: &affine };
-        let w = match request.bounds {
-            None => goal,
-            Some(bounds) => self.bounded(&tension_rows, &goal, bounds)?,
+        let w = if request.is_bounded() {
+            tension_rows.bounded(&self.cables.acting, request, &|c| self.structure.cable_name(c))?
+        } else {
+            set.nearest(&request.goal)
         };
         let tensions = (0..self.cables.lengths.len()).map(|c| tension_rows.tension(c, &w)).collect();
         self.answer(tensions, set)
-    }
-
-    fn bounded(
-        &self,
-        rows: &TensionRows<'_>,
-        goal: &[f64],
-        bounds: (f64, f64),
-    ) -> Result<Vec<f64>, InverseError> {
-        let free = goal.len();
-        let mut program = Program::new(free);
-        goal.iter().enumerate().for_each(|(k, &target)| program.near(k, target));
-        for &cable in &self.cables.acting {
-            let (row, offset) = rows.row(cable);
-            program.between(&row, bounds.0 - offset, (bounds.1 - offset).min(f64::MAX));
-        }
-        let found = if free == 0 { Ok(Vec::new()) } else { program.solve() };
-        match found {
-            Ok(w) if self.violations(rows, &w, bounds).is_empty() => Ok(w),
-            Ok(_) | Err(ProgramError::Infeasible) => self.least_violation(rows, free, bounds),
-            Err(error) => Err(error.into()),
-        }
-    }
-
-    /// Tensions beyond the bounds: (cable, tension).
-    fn violations(&self, rows: &TensionRows<'_>, w: &[f64], (low, high): (f64, f64)) -> Vec<(usize, f64)> {
-        let tensions: Vec<_> = self.cables.acting.iter().map(|&c| (c, rows.tension(c, w))).collect();
-        let slack = BOUND_ACCURACY * tensions.iter().fold(0.0_f64, |a, (_, f)| a.max(f.abs()));
-        tensions.into_iter().filter(|&(_, f)| f < low - slack || f > high + slack).collect()
-    }
-
-    /// The smallest sum of violations tells which bounds cannot be met together.
-    fn least_violation(
-        &self,
-        rows: &TensionRows<'_>,
-        free: usize,
-        bounds: (f64, f64),
-    ) -> Result<Vec<f64>, InverseError> {
-        let mut program = Program::new(free + self.cables.acting.len());
-        for (s, &cable) in self.cables.acting.iter().enumerate() {
-            let (mut row, offset) = rows.row(cable);
-            program.cost(free + s, 1.0);
-            program.at_least(&[(free + s, 1.0)], 0.0);
-            row.push((free + s, 1.0));
-            program.at_least(&row, bounds.0 - offset);
-            if let Some(last) = row.last_mut() {
-                last.1 = -1.0;
-            }
-            if bounds.1.is_finite() {
-                program.at_most(&row, bounds.1 - offset);
-            }
-        }
-        let x = program.solve()?;
-        let violated = self.violations(rows, &x[..free], bounds);
-        if violated.is_empty() {
-            return Ok(x[..free].to_vec());
-        }
-        let named = |&(c, f): &(usize, f64)| {
-            let bound = if f < bounds.0 { bounds.0 } else { bounds.1 };
-            (self.structure.cable_name(c), f, bound)
-        };
-        Err(InverseError::Infeasible { violated: violated.iter().map(named).collect() })
     }
 
     fn answer(&self, tensions: Vec<f64>, set: SolutionSet) -> Result<Answer, InverseError> {
@@ -306,44 +198,5 @@ impl<'s> InverseStatics<'s> {
                 Affine { slope: stiffness.iter().map(|k| -k).collect(), offset }
             }
         })
-    }
-}
-
-/// Tensions as functions of the coordinates w in the null space.
-struct TensionRows<'a> {
-    set: &'a SolutionSet,
-    affine: &'a Affine,
-}
-
-impl TensionRows<'_> {
-    /// Coefficients of w, and the constant.
-    fn row(&self, cable: usize) -> (Vec<(usize, f64)>, f64) {
-        let slope = self.affine.slope[cable];
-        let row = self.set.null_space.iter().map(|z| slope * z[cable]).enumerate().collect();
-        (row, slope * self.set.particular[cable] + self.affine.offset[cable])
-    }
-
-    fn tension(&self, cable: usize, w: &[f64]) -> f64 {
-        let (row, offset) = self.row(cable);
-        offset + row.iter().map(|&(k, a)| a * w[k]).sum::<f64>()
-    }
-}
-
-impl Answer {
-    /// What a workshop needs: each cable with its length, rest length, tension and strain.
-    pub fn cutting_list(&self) -> Vec<CuttingRow> {
-        let row = |c: usize| CuttingRow {
-            cable: self.names[c].clone(),
-            length: self.lengths[c],
-            rest_length: self.rest_lengths[c],
-            tension: self.tensions[c],
-            strain: (self.lengths[c] - self.rest_lengths[c]) / self.rest_lengths[c],
-        };
-        (0..self.lengths.len()).map(row).collect()
-    }
-
-    /// The inputs that hold the configuration: these rest lengths, and the loads of `u`.
-    pub fn inputs(&self, u: &[f64]) -> Vec<f64> {
-        self.rest_lengths.iter().chain(&u[self.rest_lengths.len()..]).copied().collect()
     }
 }

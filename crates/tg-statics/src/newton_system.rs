@@ -208,23 +208,14 @@ impl NewtonSystem {
     ) -> Result<Step<'_>, TangentError> {
         let (n, m) = (self.unknowns(), self.phi.len());
         let p = usize::from(self.parameter);
-        self.step[..n].copy_from_slice(&self.residual);
+        self.force.fill(0.0);
+        let jacobian = &self.jacobian[..mechanics.jacobian_pattern().len()];
+        self.augmentation.subtract_from(mechanics, jacobian, self.scale(), &self.phi, &mut self.force);
+        for ((step, r), &i) in self.step.iter_mut().zip(&self.residual).zip(mechanics.free()) {
+            *step = r + self.force[i];
+        }
         if self.parameter {
             self.step[n] = arclength;
-        }
-        // -Aᵀ P Φ, from the augmentation's own entries: A δq = -Φ.
-        let rho = self.scale();
-        let pattern = mechanics.jacobian_pattern();
-        let mut norms = vec![0.0; m];
-        for (&(row, i), a) in pattern.iter().zip(&self.jacobian) {
-            if self.layout.unknown(i).is_some() {
-                norms[row] += a * a;
-            }
-        }
-        for (&(row, i), a) in pattern.iter().zip(&self.jacobian) {
-            if let Some(k) = self.layout.unknown(i) {
-                self.step[k] -= rho * a * self.phi[row] / norms[row];
-            }
         }
         for (rhs, phi) in self.step[n + p..].iter_mut().zip(&self.phi) {
             *rhs = -phi;

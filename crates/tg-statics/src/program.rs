@@ -11,7 +11,7 @@ pub enum ProgramError {
     #[error("the bounds contradict each other")]
     Infeasible,
     /// The objective has no lower bound.
-    #[error("the objective is unbounded; bound the tensions from above")]
+    #[error("the objective has no lower bound; bound the tensions")]
     Unbounded,
     /// The solver gave up.
     #[error(
@@ -53,7 +53,11 @@ impl Program {
         self.cost[k] -= target;
     }
 
+    /// Adds `aᵀx ≤ bound`, unless the bound is infinite.
     pub(crate) fn at_most(&mut self, row: &[(usize, f64)], bound: f64) {
+        if bound == f64::INFINITY {
+            return;
+        }
         let at = self.bounds.len();
         self.entries.extend(row.iter().map(|&(k, a)| (at, k, a)));
         self.bounds.push(bound);

@@ -48,6 +48,8 @@ pub enum Goal {
     MinimumNorm,
     /// The least sum of squared distances from these values of the unknowns, one per cable.
     Closest(Vec<f64>),
+    /// The least sum of tensions; it needs bounds.
+    LeastTotalTension,
 }
 
 /// A request to inverse statics.
@@ -58,6 +60,7 @@ pub struct Request {
     pub(crate) tied: Vec<Vec<usize>>,
     pub(crate) goal: Goal,
     pub(crate) bounds: Option<(f64, f64)>,
+    pub(crate) cable_bounds: Vec<(usize, (f64, f64))>,
     pub(crate) tolerance: Option<f64>,
 }
 
@@ -70,6 +73,7 @@ impl Request {
             tied: Vec::new(),
             goal: Goal::MinimumNorm,
             bounds: None,
+            cable_bounds: Vec::new(),
             tolerance: None,
         }
     }
@@ -102,6 +106,20 @@ impl Request {
         self
     }
 
+    /// Bounds the tension \[N\] of one cable (its index) instead of the bounds of all.
+    #[must_use]
+    pub fn cable_tension_between(mut self, cable: usize, least: f64, most: f64) -> Self {
+        self.cable_bounds.push((cable, (least, most)));
+        self
+    }
+
+    /// Chooses the solution with the least sum of tensions.
+    #[must_use]
+    pub fn least_total_tension(mut self) -> Self {
+        self.goal = Goal::LeastTotalTension;
+        self
+    }
+
     /// Part of the largest singular value below which others count as zero; 1e-9 unless set.
     #[must_use]
     pub fn rank_tolerance(mut self, tolerance: f64) -> Self {
@@ -110,7 +128,9 @@ impl Request {
     }
 
     pub(crate) fn check(&self, cables: usize) -> Result<(), InverseError> {
-        let mut named = self.given.iter().map(|g| g.0).chain(self.tied.iter().flatten().copied());
+        let bounded = self.cable_bounds.iter().map(|b| b.0);
+        let given = self.given.iter().map(|g| g.0);
+        let mut named = given.chain(self.tied.iter().flatten().copied()).chain(bounded);
         if let Some(cable) = named.find(|&cable| cable >= cables) {
             return Err(InverseError::NoSuchCable { cable, cables });
         }
@@ -118,13 +138,25 @@ impl Request {
             Goal::Closest(values) if values.len() != cables => {
                 Err(InverseError::WrongLength { found: values.len(), cables })
             }
-            _ => match self.bounds {
-                Some((low, high)) if low > high || low.is_nan() || high.is_nan() => {
-                    Err(InverseError::EmptyBounds { low, high })
+            _ => {
+                let empty = |&(low, high): &(f64, f64)| low > high || low.is_nan() || high.is_nan();
+                match self.bounds.iter().chain(self.cable_bounds.iter().map(|b| &b.1)).find(|b| empty(b)) {
+                    Some(&(low, high)) => Err(InverseError::EmptyBounds { low, high }),
+                    None => Ok(()),
                 }
-                _ => Ok(()),
-            },
+            }
         }
+    }
+
+    /// Bounds on the tension of a cable; infinite where there are none.
+    pub(crate) fn bounds_of(&self, cable: usize) -> (f64, f64) {
+        let own = self.cable_bounds.iter().rev().find(|b| b.0 == cable).map(|b| b.1);
+        own.or(self.bounds).unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    /// Whether a programme is needed to choose.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.bounds.is_some() || !self.cable_bounds.is_empty() || self.goal == Goal::LeastTotalTension
     }
 
     /// Groups of cables with one unknown each; cables with a given value are in none.

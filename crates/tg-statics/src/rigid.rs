@@ -9,6 +9,8 @@ use tg_model::{At, Tensioned};
 use tg_tangent::faer::Mat;
 use tg_tangent::{TangentError, dense};
 
+use crate::size::size;
+
 /// Motions that leave a support or constraint still, per unit length of motion, or power per largest force: zero below.
 const ZERO: f64 = 1e-9;
 /// Finite motions at which power is looked at; a load that does none along a direction in all of them never does.
@@ -109,15 +111,6 @@ impl RigidMotions {
         }
         moved
     }
-}
-
-/// Largest length of a cable or member: the size of a structure wherever it stands.
-fn size(structure: &dyn Tensioned, q: &[f64]) -> f64 {
-    let (mut lengths, mut gradients) =
-        (vec![0.0; structure.cable_count()], vec![0.0; structure.length_pattern().len()]);
-    structure.lengths(q, &mut lengths, &mut gradients);
-    let members = structure.constraint_scales().iter().map(|s| s.sqrt());
-    members.chain(lengths).fold(0.0, f64::max)
 }
 
 fn columns(vectors: &[Vec<f64>]) -> Mat<f64> {

@@ -43,6 +43,23 @@ impl Augmentation {
         Self { pattern, factors, norms: vec![0.0; rows.len()], is_free }
     }
 
+    /// `out -= Aᵀ P Φ` over the full coordinates, with the norms of the last [`Augmentation::values`]: what the augmented
+    /// system's right-hand side needs so that `A δq = -Φ` gives the same solution.
+    pub fn subtract_from(
+        &self,
+        mechanics: &dyn Mechanics,
+        jacobian: &[f64],
+        rho: f64,
+        phi: &[f64],
+        out: &mut [f64],
+    ) {
+        for (&(row, i), a) in mechanics.jacobian_pattern().iter().zip(jacobian) {
+            if self.is_free[i] {
+                out[i] -= rho * a * phi[row] / self.norms[row].max(f64::MIN_POSITIVE);
+            }
+        }
+    }
+
     /// Values of `Aᵀ P A` in the order of the pattern, given those of A and ϱ.
     pub fn values(&mut self, mechanics: &dyn Mechanics, jacobian: &[f64], rho: f64, values: &mut Vec<f64>) {
         self.norms.fill(0.0);

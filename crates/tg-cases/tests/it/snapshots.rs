@@ -1,9 +1,10 @@
 //! Key numbers, rounded far above the differences between machines (chaos multiplies rounding by 1e3 over 4 s).
 
-use tg_cases::deployable::{Choices, Configuration, Deployable};
+use tg_cases::deployable::{Choices, Configuration, Deployable, statics};
 use tg_cases::published::framework;
 use tg_cases::simulate::{STEP, record, run};
 use tg_cases::slack::SlackWatch;
+use tg_cases::verify::tower::frequency_curves;
 use tg_cases::{double_pendulum, tower};
 
 /// Rounded to nanometres or nanoradians; no negative zero.
@@ -69,6 +70,30 @@ fn deployable_tower_vibrates_and_unfolds() {
         for k in 1..=end {
             let p = path[1000 * k as usize];
             lines.push(format!("{name} {k} s: {} {} {}", rounded(p.x), rounded(p.y), rounded(p.z)));
+        }
+    }
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+#[test]
+fn tower_frequencies_against_the_ratio() {
+    let (ratios, curves) = frequency_curves().unwrap();
+    let line = |k: usize| {
+        let values: Vec<String> = curves.iter().map(|curve| rounded(curve[k])).collect();
+        format!("{:.3}: {}", ratios[k], values.join(" "))
+    };
+    insta::assert_snapshot!((0..ratios.len()).map(line).collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn deployable_tower_statics() {
+    let mut lines = Vec::new();
+    for configuration in Configuration::ALL {
+        let answer = statics::inverse(&statics::untuned(configuration).unwrap()).unwrap();
+        lines.push(configuration.name().to_string());
+        for row in answer.cutting_list() {
+            let numbers = [row.length, row.rest_length, row.tension, row.strain].map(rounded);
+            lines.push(format!("{}: {}", row.cable, numbers.join(" ")));
         }
     }
     insta::assert_snapshot!(lines.join("\n"));

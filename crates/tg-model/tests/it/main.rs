@@ -14,3 +14,4 @@ mod resultant;
 mod signal;
 mod support;
 mod tangents;
+mod tensioned;

@@ -3,6 +3,7 @@
 
 mod assembly;
 mod dense;
+mod inertia;
 mod rank;
 mod repeated;
 mod singular;

@@ -8,8 +8,8 @@ use tg_statics::{
     stability,
 };
 
-/// A mast of unit length and mass on a pin, held upright by two guys of stiffness κ from (±1, 0).
-fn mast(stiffness: f64) -> Model<2> {
+/// A mast of unit length and mass on a pin, held upright by two guys of rest length 1.4 m from (±1, 0).
+fn mast(law: &CableLaw) -> Model<2> {
     let mut b = ModelBuilder::<2>::new();
     b.gravity([0.0, -10.0]).unwrap();
     let foot = b.anchor("foot", [0.0, 0.0]).unwrap();
@@ -17,7 +17,7 @@ fn mast(stiffness: f64) -> Model<2> {
     b.joint("pin", &[foot.into(), mast.node(0)], Joining::Share).unwrap();
     for (name, x) in [("left", -1.0), ("right", 1.0)] {
         let peg = b.anchor(name, [x, 0.0]).unwrap();
-        b.cable(&format!("{name} guy"), peg, mast.node(1), CableLaw::slacking(stiffness), 1.4).unwrap();
+        b.cable(&format!("{name} guy"), peg, mast.node(1), law.clone(), 1.4).unwrap();
     }
     b.build().unwrap()
 }
@@ -31,7 +31,7 @@ fn mast_energy(stiffness: f64, angle: f64) -> f64 {
 
 #[test]
 fn an_unstable_mast_is_found_as_it_is_or_left_for_a_stable_lean() {
-    let model = mast(2.0);
+    let model = mast(&CableLaw::slacking(2.0));
     let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
     let any = Forward::new(&model, ForwardOptions::default()).solve(&q, &u).unwrap();
     assert_eq!(any.report.iterations, 0, "upright is an equilibrium");
@@ -49,31 +49,18 @@ fn an_unstable_mast_is_found_as_it_is_or_left_for_a_stable_lean() {
     assert_eq!(stability(&model, &found.configuration, 1).unwrap().verdict, Verdict::Stable);
 }
 
-/// V'' = 0 upright by hand: guys of length l = √2 give 2κ(x²y²/l² + (1 - μ/l)(..)).
+/// Upright, guys have l² = 2 ± 2 sin θ, l' = ±1/√2, l'' = -1/(2√2). Two-way springs of rest length μ then give
+/// V'' = κ Σ (l'² + (l - μ) l'') - 5 = κ μ/√2 - 5.
 #[test]
 fn the_critical_rest_length_of_a_mast() {
-    let model = mast(100.0);
-    let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
-    let family = InputFamily::new(&model, &[0.0; 2], &[1.0, 1.0]);
-    let critical = critical_parameter(&family, &q, (1.0, 1.4)).unwrap_err();
-    assert!(critical.to_string().contains("no sign change"), "{critical}");
-    // Two-way springs may push: f = κ (l - μ) with l² = 2 ± 2 sin θ, V'' = κ Σ (l'² + (l - μ) l'') - 5,
-    // l' = ±1/√2, l'' = -1/(2√2): V'' = κ (1 - (√2 - μ)/√2) - 5 = κ μ/√2 - 5.
-    let mut b = ModelBuilder::<2>::new();
-    b.gravity([0.0, -10.0]).unwrap();
-    let foot = b.anchor("foot", [0.0, 0.0]).unwrap();
-    let mast = b.bar("mast", 1.0, [0.0, 0.0], [0.0, 1.0]).unwrap();
-    b.joint("pin", &[foot.into(), mast.node(0)], Joining::Share).unwrap();
-    for (name, x) in [("left", -1.0), ("right", 1.0)] {
-        let peg = b.anchor(name, [x, 0.0]).unwrap();
-        b.cable(&format!("{name} guy"), peg, mast.node(1), CableLaw::linear(100.0), 1.0).unwrap();
-    }
-    let model = b.build().unwrap();
+    let model = mast(&CableLaw::linear(100.0));
+    let q = model.initial_coordinates();
     let family = InputFamily::new(&model, &[0.0; 2], &[1.0, 1.0]);
     let critical = critical_parameter(&family, &q, (0.01, 1.0)).unwrap();
     assert_relative_eq!(critical.parameter, 5.0 * 2.0_f64.sqrt() / 100.0, max_relative = 1e-12);
     assert!(critical.evaluations < 12, "{}", critical.evaluations);
-    let _ = u;
+    let error = critical_parameter(&family, &q, (0.5, 1.0)).unwrap_err();
+    assert!(error.to_string().contains("no sign change"), "{error}");
 }
 
 #[test]

@@ -84,6 +84,17 @@ fn bounds_are_met_or_named() {
     assert_relative_eq!(answer.tensions[0], 3.6, max_relative = 1e-6);
     assert_relative_eq!(answer.tensions[1], 10.0 - 1.6 * 3.6, max_relative = 1e-6);
     assert!(imbalance(&model, &answer.inputs(&u)) < 1e-12, "a bounded answer balances exactly");
+    // The middle string is shortest for what it lifts: least total tension loads it until the sides are at their bound.
+    let least = Request::new(Unknown::Tension).tension_between(1.0, 20.0).least_total_tension();
+    let answer = inverse.solve(&least).unwrap();
+    assert_relative_eq!(answer.tensions[0], 1.0, max_relative = 1e-6);
+    assert_relative_eq!(answer.tensions[1], 8.4, max_relative = 1e-6);
+    let own = least.cable_tension_between(1, 0.0, 6.0);
+    assert_relative_eq!(inverse.solve(&own).unwrap().tensions[1], 6.0, max_relative = 1e-6);
+    assert!(matches!(
+        inverse.solve(&Request::new(Unknown::Tension).least_total_tension()),
+        Err(InverseError::Program(_))
+    ));
     let Err(InverseError::Infeasible { violated }) =
         inverse.solve(&Request::new(Unknown::Tension).tension_between(4.0, 10.0))
     else {

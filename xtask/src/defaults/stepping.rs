@@ -1,0 +1,94 @@
+//! What the settings of [`NewtonOptions`] cost and give, on the planar tower.
+
+use comfy_table::Table;
+use tg_cases::error::CaseError;
+use tg_cases::simulate;
+use tg_cases::tower::{Choices, Setup, Tower};
+use tg_integrate::{NewtonOptions, Run, State, StepReport, Summary, Symplectic};
+use tg_model::CableLaw;
+
+use super::plain;
+
+/// One table per setting.
+pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
+    Ok(vec![
+        (
+            "Newton tolerance of a step: tower UN, h = 1e-3, 2 s; largest distance of triangle 3 from the run at 1e-14",
+            tolerances()?,
+        ),
+        (
+            "Steps without a solution: tower, slacking, η = 1 N s/m, h = 2e-3, 2 s; largest distance of triangle 3 from the run at h/64",
+            remedies()?,
+        ),
+    ])
+}
+
+fn tolerances() -> Result<Table, CaseError> {
+    let tower = Tower::new(&Choices::paper(Setup::Un))?;
+    let at = |tolerance| path(&tower, 1e-3, 1, NewtonOptions { tolerance, ..NewtonOptions::default() });
+    let (best, _, _) = at(1e-14)?;
+    let mut table =
+        plain(["tolerance", "iterations per step", "most in a step", "distance [m]", "residual left"]);
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
+        let (points, summary, most) = at(tolerance)?;
+        table.add_row([
+            format!("{tolerance:.0e}"),
+            format!("{:.3}", summary.iterations as f64 / summary.steps as f64),
+            most.to_string(),
+            format!("{:.1e}", simulate::distance(&points, &best)),
+            format!("{:.1e}", summary.residual),
+        ]);
+    }
+    Ok(table)
+}
+
+fn remedies() -> Result<Table, CaseError> {
+    let law = CableLaw::slacking(100.0).with_damping(1.0);
+    let tower = Tower::new(&Choices { law, ..Choices::paper(Setup::Us) })?;
+    let (h, fine) = (2e-3, 64);
+    let (best, _, _) = path(&tower, h / f64::from(fine), fine, NewtonOptions::default())?;
+    let mut table = plain([
+        "freeze after",
+        "halvings",
+        "steps divided",
+        "forced",
+        "iterations per step",
+        "most in a step",
+        "distance [m]",
+    ]);
+    for (freeze_after, halvings) in [(6, 0), (6, 1), (6, 2), (6, 3), (6, 5), (6, 8), (3, 5), (10, 5)] {
+        let options = NewtonOptions { freeze_after, halvings, ..NewtonOptions::default() };
+        let (points, summary, most) = path(&tower, h, 1, options)?;
+        table.add_row([
+            freeze_after.to_string(),
+            halvings.to_string(),
+            summary.divided.to_string(),
+            summary.forced.to_string(),
+            format!("{:.3}", summary.iterations as f64 / summary.steps as f64),
+            most.to_string(),
+            format!("{:.2e}", simulate::distance(&points, &best)),
+        ]);
+    }
+    Ok(table)
+}
+
+/// Triangle 3's mass centre at every `stride`-th step to 2 s, totals, and the most iterations of a step.
+fn path(
+    tower: &Tower,
+    h: f64,
+    stride: u32,
+    options: NewtonOptions,
+) -> Result<(Vec<[f64; 2]>, Summary, u32), CaseError> {
+    let mut stepper = Symplectic::new(&tower.model, options)?;
+    let mut state = simulate::start(&tower.model, &mut stepper)?;
+    let (mut points, mut step, mut most) = (Vec::new(), 0, 0);
+    let mut watch = |state: &State, report: &StepReport| {
+        most = most.max(report.iterations);
+        if step % stride == 0 {
+            points.push(tower.centre3.eval(&state.q).into());
+        }
+        step += 1;
+    };
+    let summary = Run::new(h, 2.0).observe(&mut watch).go(&mut stepper, &mut state)?;
+    Ok((points, summary, most))
+}
