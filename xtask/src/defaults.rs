@@ -14,7 +14,9 @@ use crate::TaskError;
 
 /// Prints one table per setting; always true.
 pub(crate) fn measure() -> Result<bool, TaskError> {
-    for (title, table) in stepping::tables()?.into_iter().chain(eigen::tables()?).chain(equilibrium::tables()?) {
+    for (title, table) in
+        stepping::tables()?.into_iter().chain(eigen::tables()?).chain(equilibrium::tables()?)
+    {
         println!("{title}\n\n{table}\n");
     }
     Ok(true)

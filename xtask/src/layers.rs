@@ -7,13 +7,15 @@ use serde::Deserialize;
 use crate::TaskError;
 
 /// Each crate and the workspace crates that it may use, lowest layer first.
-const ALLOWED: [(&str, &[&str]); 10] = [
+const ALLOWED: [(&str, &[&str]); 12] = [
     ("tg-coords", &[]),
     ("tg-sparse", &[]),
     ("tg-model", &["tg-coords", "tg-sparse"]),
     ("tg-tangent", &["tg-model", "tg-sparse"]),
     ("tg-statics", &["tg-model", "tg-sparse", "tg-tangent"]),
     ("tg-modal", &["tg-coords", "tg-model", "tg-tangent"]),
+    ("tg-homotopy", &[]),
+    ("tg-equilibria", &["tg-homotopy", "tg-model", "tg-statics", "tg-tangent"]),
     ("tg-integrate", &["tg-model", "tg-sparse"]),
     ("tg-fixtures", &["tg-coords", "tg-model"]),
     ("tg-cases", &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-integrate"]),

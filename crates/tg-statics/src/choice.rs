@@ -34,7 +34,12 @@ impl TensionRows<'_> {
     }
 
     /// Coordinates w of the solution that a request with bounds chooses.
-    pub(crate) fn bounded(&self, cables: &[usize], request: &Request, name: &dyn Fn(usize) -> String) -> Result<Vec<f64>, InverseError> {
+    pub(crate) fn bounded(
+        &self,
+        cables: &[usize],
+        request: &Request,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Vec<f64>, InverseError> {
         let free = self.set.null_space.len();
         let mut program = Program::new(free);
         match request.goal {
@@ -72,7 +77,12 @@ impl TensionRows<'_> {
     }
 
     /// The smallest sum of violations tells which bounds cannot be met together.
-    fn least_violation(&self, cables: &[usize], request: &Request, name: &dyn Fn(usize) -> String) -> Result<Vec<f64>, InverseError> {
+    fn least_violation(
+        &self,
+        cables: &[usize],
+        request: &Request,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Vec<f64>, InverseError> {
         let free = self.set.null_space.len();
         let mut program = Program::new(free + cables.len());
         for (s, &cable) in cables.iter().enumerate() {

@@ -22,7 +22,7 @@ pub struct ForwardOptions {
     pub seek: Seek,
     /// Whether dynamic relaxation may take over.
     pub relax: bool,
-    /// Load steps of [`Forward::solve_from`].
+    /// Load steps of [`crate::Forward::solve_from`].
     pub load_steps: u32,
 }
 

@@ -19,6 +19,9 @@ use crate::size::size;
 const MOST_CORRECTIONS: u32 = 12;
 /// Scaled constraint residual of a converged point.
 const CONSISTENT: f64 = 1e-13;
+/// Distance from the prediction, in steps, beyond which a point belongs to another branch. Where a cable goes slack the
+/// branch has a kink and its points lie off the tangent; ten steps allow for angles up to 84°.
+const STRAY: f64 = 10.0;
 /// Part of a step to which the end of the range is located.
 const LOCATED: f64 = 1e-11;
 
@@ -84,12 +87,23 @@ impl<'f> Path<'f> {
         let mut q = from.point.configuration.q.clone();
         self.free.iter().zip(&from.tangent).for_each(|(&i, t)| q[i] += step * t);
         let p = from.point.parameter + step * from.tangent[n];
-        let guess = Guess { q, lambda: from.point.configuration.lambda.clone(), p };
-        self.correct(guess, &from.tangent, step, false)
+        let guess = Guess { q: q.clone(), lambda: from.point.configuration.lambda.clone(), p };
+        let found = self.correct(guess, &from.tangent, step, false)?;
+        Ok(found.filter(|place| {
+            let point = &place.point;
+            let apart = self.free.iter().map(|&i| point.configuration.q[i] - q[i]);
+            let stray: Vec<f64> = apart.chain([point.parameter - p]).collect();
+            self.norm(&stray) <= STRAY * step
+        }))
     }
 
     /// The place where the branch meets a bound of the range, within a step from `from`.
-    pub(crate) fn at_bound(&mut self, from: &Place, step: f64, bound: f64) -> Result<Place, ContinuationError> {
+    pub(crate) fn at_bound(
+        &mut self,
+        from: &Place,
+        step: f64,
+        bound: f64,
+    ) -> Result<Place, ContinuationError> {
         let n = self.free.len();
         let (mut low, mut high) = (0.0, step);
         let before = from.point.parameter - bound;

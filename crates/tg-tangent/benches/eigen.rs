@@ -13,7 +13,8 @@ fn eigen(c: &mut Criterion) {
         for &vertebrae in sizes {
             let Ok(spine) = spine(vertebrae, 8.0, 0.0) else { continue };
             let model = spine.model;
-            let Ok(at) = Configuration::at(&model, &model.initial_coordinates(), &model.inputs_at(0.0)) else {
+            let Ok(at) = Configuration::at(&model, &model.initial_coordinates(), &model.inputs_at(0.0))
+            else {
                 continue;
             };
             let options = EigenOptions { method, ..EigenOptions::new(10, Metric::Mass) };

@@ -7,11 +7,11 @@
 use tg_model::Mechanics;
 
 use crate::configuration::Configuration;
-use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
 use crate::entries::Entries;
 use crate::error::TangentError;
 use crate::lanczos::{Krylov, Operator, RitzPair, dot};
 use crate::shift_invert::ShiftInvert;
+use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
 use crate::tangent::Tangent;
 
 /// W-norm of a Ritz pair's residual, per θ, at which it has converged: eigenvalues are then good to the square of it.

@@ -31,9 +31,16 @@ impl Configuration {
     /// force. The constraints are not checked.
     ///
     /// # Errors
-    /// A force is not finite, or A has dependent rows.
+    /// Slices of the wrong length, numbers that are not finite, or A has dependent rows.
     pub fn at(mechanics: &dyn Mechanics, q: &[f64], u: &[f64]) -> Result<Self, TangentError> {
         let sizes = mechanics.sizes();
+        for (what, found, expected) in
+            [("coordinates", q.len(), sizes.coordinates), ("inputs", u.len(), sizes.inputs)]
+        {
+            if found != expected {
+                return Err(TangentError::Length { what, found, expected });
+            }
+        }
         let rest = vec![0.0; sizes.coordinates];
         let at = At { q, v: &rest, u, taut: None };
         let mut force = rest.clone();

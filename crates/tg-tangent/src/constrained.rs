@@ -3,9 +3,9 @@
 use tg_model::Mechanics;
 
 use crate::configuration::Configuration;
-use crate::spectrum::Metric;
 use crate::error::TangentError;
 use crate::shift_invert::ShiftInvert;
+use crate::spectrum::Metric;
 
 /// Factors of `[X, -Aᵀ; A, 0]` at a configuration, sparse, X = K of (41) or X = M.
 ///

@@ -16,8 +16,9 @@ use crate::reduced::Reduced;
 use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Sign, Spectrum, sign};
 use crate::tangent::Tangent;
 
-/// Free coordinates up to which [`Method::Automatic`] reduces to dense matrices: `cargo xtask defaults` times both.
-const DENSE_LIMIT: usize = 300;
+/// Free coordinates up to which [`Method::Automatic`] reduces to dense matrices: `cargo xtask defaults` finds both equally
+/// fast near 220.
+const DENSE_LIMIT: usize = 220;
 
 /// The lowest eigenpairs at a configuration.
 ///

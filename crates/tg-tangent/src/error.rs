@@ -19,6 +19,18 @@ pub enum TangentError {
         /// The solver's reason.
         source: SparseError,
     },
+    /// Coordinates or inputs of the wrong number.
+    #[error(
+        "{found} {what} for a structure that has {expected}; take them from its own `initial_coordinates` and `inputs_at`"
+    )]
+    Length {
+        /// What was given.
+        what: &'static str,
+        /// How many were given.
+        found: usize,
+        /// How many the structure has.
+        expected: usize,
+    },
     /// A coordinate, input or force is not finite.
     #[error(
         "{what} is not finite at {culprit}; check coordinates and inputs, and that no cable has length zero"

@@ -5,8 +5,8 @@ use tg_sparse::{Inertia, SaddleSystem};
 
 use crate::augmentation::Augmentation;
 use crate::configuration::Configuration;
-use crate::spectrum::Metric;
 use crate::error::TangentError;
+use crate::spectrum::Metric;
 
 const STIFFNESS: usize = 0;
 const HESSIAN: usize = 1;

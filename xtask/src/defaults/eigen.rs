@@ -20,7 +20,10 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, TaskError> {
             "Ten lowest modes of a spine, dense and sparse: fastest of five; the larger the ratio, the better is sparse",
             methods()?,
         ),
-        ("Zero eigenvalues of free prisms per the largest eigenvalue, and the smallest one that is not zero", zeros()?),
+        (
+            "Zero eigenvalues of free prisms per the largest eigenvalue, and the smallest one that is not zero",
+            zeros()?,
+        ),
     ])
 }
 
@@ -29,7 +32,8 @@ fn at(model: &Model<3>) -> Result<Configuration, TangentError> {
 }
 
 fn methods() -> Result<Table, TaskError> {
-    let mut table = plain(["vertebrae", "coordinates", "dense [ms]", "sparse [ms]", "ratio", "largest difference"]);
+    let mut table =
+        plain(["vertebrae", "coordinates", "dense [ms]", "sparse [ms]", "ratio", "largest difference"]);
     for vertebrae in [2, 5, 10, 15, 20, 25, 30, 40] {
         let model = spine(vertebrae, 8.0, 0.0)?.model;
         let at = at(&model)?;

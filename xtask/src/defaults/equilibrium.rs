@@ -31,7 +31,8 @@ fn tolerances() -> Result<Table, CaseError> {
     let rest = rest_lengths(Configuration::Initial)?;
     let structure = Deployable::new(&deployable::Choices::still(Configuration::Initial, &rest))?;
     let (q, u) = (structure.model.initial_coordinates(), structure.model.inputs_at(0.0));
-    let mut table = plain(["perturbed by [m]", "tolerance", "iterations", "residual left", "distance left [m]"]);
+    let mut table =
+        plain(["perturbed by [m]", "tolerance", "iterations", "residual left", "distance left [m]"]);
     for distance in [1e-4, 5e-3, 2e-2] {
         let mut far = q.clone();
         let free = structure.model.free();

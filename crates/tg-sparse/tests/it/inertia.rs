@@ -15,7 +15,19 @@ fn reflect(v: &[f64], x: &mut [f64]) {
 fn system(n: usize, m: usize, signs: &[f64], r: &mut Random) -> SaddleSystem {
     let free = n - m;
     let lower: Vec<Vec<f64>> = (0..free)
-        .map(|i| (0..free).map(|j| if i == j { 1.0 } else if j < i { r.value() } else { 0.0 }).collect())
+        .map(|i| {
+            (0..free)
+                .map(|j| {
+                    if i == j {
+                        1.0
+                    } else if j < i {
+                        r.value()
+                    } else {
+                        0.0
+                    }
+                })
+                .collect()
+        })
         .collect();
     let mut h = vec![vec![0.0; n]; n];
     for i in 0..n {

@@ -99,6 +99,8 @@ fn a_force_that_is_not_finite_is_named() {
     let prism = prism(3, 10.0, 0.0, CableLaw::slacking).unwrap();
     let mut q = prism.model.initial_coordinates();
     q[4] = f64::NAN;
+    let error = Configuration::at(&prism.model, &q[1..], &prism.model.inputs_at(0.0)).unwrap_err();
+    assert!(error.to_string().contains("17 coordinates for a structure that has 18"), "{error}");
     let error = Configuration::at(&prism.model, &q, &prism.model.inputs_at(0.0)).unwrap_err();
     assert!(matches!(error, TangentError::NotFinite { .. }), "{error}");
     assert!(error.to_string().contains("bar"), "{error}");
