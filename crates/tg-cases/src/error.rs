@@ -35,6 +35,9 @@ pub enum CaseError {
     /// A branch of equilibria cannot be followed.
     #[error(transparent)]
     Continuation(#[from] tg_statics::ContinuationError),
+    /// All equilibria of a structure cannot be had.
+    #[error(transparent)]
+    Equilibria(#[from] tg_equilibria::EquilibriaError),
     /// No modes about an equilibrium.
     #[error(transparent)]
     Modal(#[from] tg_modal::ModalError),

@@ -43,6 +43,11 @@ impl<'m> Family<'m> {
         Ok(Self { model, form, instance, paths: options.paths.clone() })
     }
 
+    /// The structure.
+    pub fn model(&self) -> &'m Model<2> {
+        self.model
+    }
+
     /// Number of generic solutions: the paths of a query.
     pub fn generic_count(&self) -> usize {
         self.instance.solutions.len()

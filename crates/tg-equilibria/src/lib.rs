@@ -7,6 +7,7 @@
 //! |---|---|
 //! | all equilibria at given rest lengths | [`all_equilibria`] |
 //! | the same for other rest lengths, quickly | [`Family`] |
+//! | along one rest length, with the folds | [`Family::sweep`], [`Sweep`] |
 //! | what was found and what supports it | [`EquilibriaReport`], [`RealEquilibrium`] |
 
 mod affine;
@@ -16,8 +17,10 @@ mod family;
 mod planar;
 mod report;
 mod stationarity;
+mod sweep;
 
 pub use equilibria::{EquilibriaOptions, all_equilibria};
 pub use error::EquilibriaError;
 pub use family::Family;
 pub use report::{EquilibriaReport, RealEquilibrium};
+pub use sweep::{Fold, Sweep};
