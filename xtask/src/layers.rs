@@ -18,7 +18,10 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("tg-equilibria", &["tg-homotopy", "tg-model", "tg-statics", "tg-tangent"]),
     ("tg-integrate", &["tg-model", "tg-sparse"]),
     ("tg-fixtures", &["tg-coords", "tg-model"]),
-    ("tg-cases", &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-equilibria", "tg-integrate"]),
+    (
+        "tg-cases",
+        &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-equilibria", "tg-integrate"],
+    ),
     ("xtask", &["tg-cases", "tg-fixtures", "tg-integrate", "tg-model", "tg-statics", "tg-tangent"]),
 ];
 

@@ -40,14 +40,16 @@ impl Affine {
             })
             .collect();
         let size = |row: &[Complex64]| row.iter().fold(0.0_f64, |a, x| a.max(x.norm()));
-        let scales: Vec<f64> = rows.iter().map(|row| size(&row[..variables]).max(f64::MIN_POSITIVE)).collect();
+        let scales: Vec<f64> =
+            rows.iter().map(|row| size(&row[..variables]).max(f64::MIN_POSITIVE)).collect();
         for (row, scale) in rows.iter_mut().zip(scales) {
             row.iter_mut().for_each(|x| *x /= scale);
         }
         let mut pivots: Vec<(usize, usize)> = Vec::new();
         let mut next = 0;
         for &column in preference {
-            let best = (next..rows.len()).max_by(|&a, &b| rows[a][column].norm().total_cmp(&rows[b][column].norm()));
+            let best =
+                (next..rows.len()).max_by(|&a, &b| rows[a][column].norm().total_cmp(&rows[b][column].norm()));
             let Some(best) = best.filter(|&r| rows[r][column].norm() > ZERO) else { continue };
             rows.swap(next, best);
             let pivot = rows[next][column];

@@ -1,7 +1,8 @@
 //! All equilibria of a planar structure: solve, certify, judge.
 
 use tg_homotopy::{
-    CertifyOptions, Complex64, Conjugation, PathOptions, Realness, SolveOptions, SolveReport, Start, certify, solve,
+    CertifyOptions, Complex64, Conjugation, PathOptions, Realness, SolveOptions, SolveReport, Start, certify,
+    solve,
 };
 use tg_model::{Mechanics, Model, Tensioned};
 use tg_statics::{EquilibriumReport, Verdict, stability};
@@ -125,5 +126,14 @@ fn equilibrium(
     let lengths = signs.iter().zip(&report.cables).map(|(sign, (_, cable))| sign * cable.length).collect();
     let energy = model.energy(&q, &rest, u).potential();
     let taut = physical && !slack;
-    Ok(RealEquilibrium { configuration: report.configuration, lengths, physical, taut, energy, negative, stable, radius })
+    Ok(RealEquilibrium {
+        configuration: report.configuration,
+        lengths,
+        physical,
+        taut,
+        energy,
+        negative,
+        stable,
+        radius,
+    })
 }

@@ -1,8 +1,8 @@
 //! Why all equilibria of a structure cannot be had.
 
-use thiserror::Error;
 use tg_homotopy::HomotopyError;
 use tg_tangent::TangentError;
+use thiserror::Error;
 
 /// Why all equilibria of a structure cannot be had.
 #[derive(Debug, Error)]
@@ -37,7 +37,9 @@ pub enum EquilibriaError {
         expected: usize,
     },
     /// A rest length is zero where the family has it in its polynomials, or the other way round.
-    #[error("the rest length of cable \"{cable}\" is {value} m: a family is for cables that keep a free length, or that have none")]
+    #[error(
+        "the rest length of cable \"{cable}\" is {value} m: a family is for cables that keep a free length, or that have none"
+    )]
     OtherFamily {
         /// Name of the cable.
         cable: String,

@@ -62,7 +62,10 @@ impl<'m> Family<'m> {
         for (cable, &value) in u.iter().enumerate().take(self.model.cable_count()) {
             let has_rest = self.form.springs.contains(&cable);
             if has_rest == (value == 0.0) {
-                return Err(EquilibriaError::OtherFamily { cable: Tensioned::cable_name(self.model, cable), value });
+                return Err(EquilibriaError::OtherFamily {
+                    cable: Tensioned::cable_name(self.model, cable),
+                    value,
+                });
             }
         }
         let target = parameters(&self.form, u);

@@ -116,7 +116,9 @@ impl Planar {
     /// A member's nodes turn together.
     fn rotate(&mut self, model: &Model<2>, member: MemberId, q: &[f64], relations: &mut Vec<Relation>) {
         let ids = model.member_node_ids(member);
-        let Some((&first, others)) = ids.split_first().filter(|(_, others)| !others.is_empty()) else { return };
+        let Some((&first, others)) = ids.split_first().filter(|(_, others)| !others.is_empty()) else {
+            return;
+        };
         let name = model.member_name(member).to_string();
         let z = self.variable(Kind::Holomorphic, format!("rotation of \"{name}\""));
         let conjugate = self.variable(Kind::Antiholomorphic, format!("conjugate rotation of \"{name}\""));
@@ -138,7 +140,12 @@ impl Planar {
     }
 
     /// Joints by constraints: linear rows in x and y come in pairs.
-    fn joints(&self, model: &Model<2>, q: &[f64], relations: &mut Vec<Relation>) -> Result<(), EquilibriaError> {
+    fn joints(
+        &self,
+        model: &Model<2>,
+        q: &[f64],
+        relations: &mut Vec<Relation>,
+    ) -> Result<(), EquilibriaError> {
         let mut is_dot = vec![false; model.sizes().constraints];
         model.constraint_hessian().iter().for_each(|e| is_dot[e.constraint] = true);
         let mut jacobian = vec![0.0; model.jacobian_pattern().len()];
@@ -147,7 +154,9 @@ impl Planar {
         model.constraints(q, &mut phi);
         for (row, _) in is_dot.iter().enumerate().filter(|(_, dot)| !**dot) {
             let mut sum = Form::constant(Complex64::new(phi[row], 0.0));
-            for (&(_, i), &a) in model.jacobian_pattern().iter().zip(&jacobian).filter(|((r, _), _)| *r == row) {
+            for (&(_, i), &a) in
+                model.jacobian_pattern().iter().zip(&jacobian).filter(|((r, _), _)| *r == row)
+            {
                 let [p, conjugate] = &self.nodes[i / 2];
                 let (a_p, a_conjugate) = if i % 2 == 0 {
                     (ONE * (0.5 * a), ONE * (0.5 * a))

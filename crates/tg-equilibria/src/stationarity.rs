@@ -46,10 +46,14 @@ impl Stationarity {
         let mut b = SystemBuilder::new();
         let independent = &form.affine.independent;
         let y: Vec<Polynomial> = independent.iter().map(|&k| b.unknown(form.names[k].as_str())).collect();
-        let inverse: Vec<Polynomial> =
-            springs.iter().map(|&c| b.unknown(format!("1/length of {}", Tensioned::cable_name(model, c)))).collect();
-        let rest: Vec<Polynomial> =
-            springs.iter().map(|&c| b.parameter(format!("rest length of {}", Tensioned::cable_name(model, c)))).collect();
+        let inverse: Vec<Polynomial> = springs
+            .iter()
+            .map(|&c| b.unknown(format!("1/length of {}", Tensioned::cable_name(model, c))))
+            .collect();
+        let rest: Vec<Polynomial> = springs
+            .iter()
+            .map(|&c| b.parameter(format!("rest length of {}", Tensioned::cable_name(model, c))))
+            .collect();
         let value = |affine: &Form| polynomial(&reduced(&form, affine), &y);
 
         // ∂V/∂y for each independent variable.
@@ -101,13 +105,18 @@ impl Stationarity {
             b.equation(slope);
         }
         for (s, cable) in springs.iter().enumerate() {
-            let Some((_, _, [l, conjugate])) = parts.lines.iter().find(|line| line.0 == *cable) else { continue };
-            b.equation(&(&inverse[s] * &inverse[s]) * &(&value(l) * &value(conjugate)) - Polynomial::constant(1.0));
+            let Some((_, _, [l, conjugate])) = parts.lines.iter().find(|line| line.0 == *cable) else {
+                continue;
+            };
+            b.equation(
+                &(&inverse[s] * &inverse[s]) * &(&value(l) * &value(conjugate)) - Polynomial::constant(1.0),
+            );
         }
         let system = b.build()?;
         let coordinates = y.len();
         let kind = |at: usize| form.kinds[independent[at]];
-        let pairs = (0..coordinates).filter(|&at| kind(at) == Kind::Holomorphic).map(|at| (at, at + 1)).collect();
+        let pairs =
+            (0..coordinates).filter(|&at| kind(at) == Kind::Holomorphic).map(|at| (at, at + 1)).collect();
         let of = |wanted: Kind| (0..coordinates).filter(|&at| kind(at) == wanted).collect::<Vec<_>>();
         let groupings = groupings(
             system.unknowns(),
@@ -158,7 +167,8 @@ impl Parts {
             let stiffness = model.linear_stiffness(index).ok_or_else(|| EquilibriaError::NotAlgebraic {
                 what: format!("the law of cable \"{}\"", model.cable_name(cable)),
             })?;
-            let mut ends = [Form::constant(Complex64::new(0.0, 0.0)), Form::constant(Complex64::new(0.0, 0.0))];
+            let mut ends =
+                [Form::constant(Complex64::new(0.0, 0.0)), Form::constant(Complex64::new(0.0, 0.0))];
             for &(node, w) in model.cable_form(cable).terms() {
                 for (end, side) in ends.iter_mut().zip(&form.nodes[node]) {
                     end.add(side, Complex64::new(w, 0.0));
@@ -184,7 +194,8 @@ impl Parts {
         let elsewhere = constant(&moved, &mut lengths, &mut gradients);
         let size = force.iter().fold(1.0_f64, |a, f| a.max(f.abs()));
         if let Some(&i) = model.free().iter().find(|&&i| (force[i] - elsewhere[i]).abs() > 1e-8 * size) {
-            let what = format!("a load that depends on the configuration at the {}", model.coordinate_name(i));
+            let what =
+                format!("a load that depends on the configuration at the {}", model.coordinate_name(i));
             return Err(EquilibriaError::NotAlgebraic { what });
         }
         let mut load = Form::constant(Complex64::new(0.0, 0.0));

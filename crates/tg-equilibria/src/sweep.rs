@@ -58,7 +58,8 @@ impl Family<'_> {
                 let options = ContinuationOptions { behind: BEHIND, ..ContinuationOptions::default() };
                 let branch = continuation(&family, &equilibrium.configuration.q, (from.0, to.0), &options)?;
                 let turns = branch.events.into_iter().filter(|event| event.kind == EventKind::LimitPoint);
-                let found = turns.map(|event| Fold { rest: event.parameter, configuration: event.configuration });
+                let found =
+                    turns.map(|event| Fold { rest: event.parameter, configuration: event.configuration });
                 folds.extend(found.take(1));
             }
         }

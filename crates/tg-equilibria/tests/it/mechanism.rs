@@ -9,7 +9,8 @@ use tg_model::{CableLaw, Joining, Model, ModelBuilder};
 fn mechanism(free: [f64; 2]) -> Model<2> {
     let mut b = ModelBuilder::<2>::new();
     let fixed = [[0.0, 0.0], [3.19, 0.0], [-2.55, 4.93]];
-    let fixed: Vec<_> = fixed.iter().enumerate().map(|(k, &p)| b.anchor(&format!("{}", k + 1), p).unwrap()).collect();
+    let fixed: Vec<_> =
+        fixed.iter().enumerate().map(|(k, &p)| b.anchor(&format!("{}", k + 1), p).unwrap()).collect();
     let bar = b.bar("bar 1-4", 1.0, [0.0, 0.0], [9.0, 0.0]).unwrap();
     let nodes = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Vector2::from);
     let mass = MassProperties::from_polar_moment(1.0, Vector2::zeros(), 1.0).unwrap();
@@ -29,9 +30,18 @@ fn solve(free: [f64; 2]) -> EquilibriaReport {
     let report = all_equilibria(&model, &model.inputs_at(0.0), &EquilibriaOptions::default()).unwrap();
     println!(
         "{free:?}: paths {} finite {} singular {} infinity {} failed {} certified {} real {} physical {} stable {} index {} radius {:.1e} {:?}",
-        report.paths, report.finite, report.singular.len(), report.at_infinity, report.failed, report.certified,
-        report.equilibria.len(), report.physical().count(), report.stable().count(), report.index_sum(),
-        report.largest_radius, start.elapsed()
+        report.paths,
+        report.finite,
+        report.singular.len(),
+        report.at_infinity,
+        report.failed,
+        report.certified,
+        report.equilibria.len(),
+        report.physical().count(),
+        report.stable().count(),
+        report.index_sum(),
+        report.largest_radius,
+        start.elapsed()
     );
     report
 }

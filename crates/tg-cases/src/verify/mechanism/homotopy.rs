@@ -4,8 +4,8 @@ use tg_equilibria::{EquilibriaOptions, EquilibriaReport, all_equilibria};
 
 use super::{EXACT, Expected, SEARCH, nearest};
 use crate::error::CaseError;
-use crate::mechanism::series::{FORCE, Series};
-use crate::mechanism::{Case, Mechanism, Parameters};
+use crate::mechanism::{Case, FORCE, Mechanism, Parameters, Series};
+
 use crate::row::Rows;
 
 /// Mechanisms drawn at random beside the paper's.
@@ -22,10 +22,24 @@ pub(super) fn rows(rows: &mut Rows, case: Case, expected: &Expected) -> Result<(
     };
     rows.exact(format!("{name}: certified complex solutions"), (report.certified, finite), EXACT);
     rows.exact(format!("{name}: paths that failed"), (report.failed, 0), "every path is accounted for");
-    rows.exact(format!("{name}: solutions without proof"), (report.rejected + report.undecided, 0), "certification");
-    rows.below(format!("{name}: largest certified radius"), "1", report.largest_radius, "certification", 1e-10);
+    rows.exact(
+        format!("{name}: solutions without proof"),
+        (report.rejected + report.undecided, 0),
+        "certification",
+    );
+    rows.below(
+        format!("{name}: largest certified radius"),
+        "1",
+        report.largest_radius,
+        "certification",
+        1e-10,
+    );
     rows.exact(format!("{name}: real solutions"), (report.equilibria.len(), expected.all().count()), SEARCH);
-    rows.exact(format!("{name}: physical equilibria"), (report.physical().count(), expected.equilibria.len()), SEARCH);
+    rows.exact(
+        format!("{name}: physical equilibria"),
+        (report.physical().count(), expected.equilibria.len()),
+        SEARCH,
+    );
     rows.exact(format!("{name}: stable ones"), (report.stable().count(), expected.stable()), SEARCH);
     let (angle, energy) = largest_differences(&mechanism, &report, expected);
     rows.below(format!("{name}: largest difference of an angle"), "°", angle, SEARCH, 1e-10);
@@ -50,8 +64,16 @@ pub(super) fn beyond(rows: &mut Rows) -> Result<(), CaseError> {
 
     let series = Series::new(&Parameters::paper(Case::One), FORCE)?;
     let report = all_equilibria(&series.model, &series.model.inputs_at(0.0), &EquilibriaOptions::default())?;
-    rows.exact("two modules in series under load: certified complex solutions", (report.certified, 52), EXACT);
-    rows.exact("two modules in series under load: paths that failed", (report.failed, 0), "every path is accounted for");
+    rows.exact(
+        "two modules in series under load: certified complex solutions",
+        (report.certified, 52),
+        EXACT,
+    );
+    rows.exact(
+        "two modules in series under load: paths that failed",
+        (report.failed, 0),
+        "every path is accounted for",
+    );
     Ok(())
 }
 
@@ -67,7 +89,9 @@ fn largest_differences(mechanism: &Mechanism, report: &EquilibriaReport, expecte
     let mut worst = (0.0_f64, 0.0_f64);
     for found in report.physical() {
         let angles = mechanism.angles(&found.configuration.q).map(f64::to_degrees);
-        let Some((known, distance)) = nearest(&expected.equilibria, angles) else { return (f64::NAN, f64::NAN) };
+        let Some((known, distance)) = nearest(&expected.equilibria, angles) else {
+            return (f64::NAN, f64::NAN);
+        };
         worst = (worst.0.max(distance), worst.1.max((known.energy - found.energy).abs()));
     }
     worst
