@@ -27,16 +27,7 @@ impl CableEquilibrium {
     pub(crate) fn new(structure: &dyn Tensioned, at: &Configuration) -> Result<Self, TangentError> {
         let mechanics = structure.mechanics();
         let null_space = NullSpace::new(&Tangent::new(mechanics, at))?;
-        let layout = Layout::new(mechanics);
-        let pattern = structure.length_pattern();
-        let (mut lengths, mut values) = (vec![0.0; structure.cable_count()], vec![0.0; pattern.len()]);
-        structure.lengths(&at.q, &mut lengths, &mut values);
-        let places = pattern.iter().map(|&(cable, i)| (Some(cable), layout.unknown(i)));
-        let gradient = Entries::new(
-            lengths.len(),
-            layout.unknowns(),
-            places.zip(&values).map(|((cable, i), &value)| (cable, i, value)),
-        );
+        let (lengths, gradient) = lengths(structure, &at.q);
         let mut acts = vec![false; lengths.len()];
         gradient.iter().for_each(|(cable, _, _)| acts[cable] = true);
         let acting: Vec<usize> = (0..lengths.len()).filter(|&c| acts[c]).collect();
@@ -57,4 +48,16 @@ impl CableEquilibrium {
         self.gradient.add_transposed_product(1.0, &tensions, &mut load);
         self.null_space.basis.transpose() * Mat::from_fn(load.len(), 1, |k, _| load[k])
     }
+}
+
+/// Lengths of all cables, and ∂l/∂q, cables by free coordinates.
+pub(crate) fn lengths(structure: &dyn Tensioned, q: &[f64]) -> (Vec<f64>, Entries) {
+    let layout = Layout::new(structure.mechanics());
+    let pattern = structure.length_pattern();
+    let (mut lengths, mut values) = (vec![0.0; structure.cable_count()], vec![0.0; pattern.len()]);
+    structure.lengths(q, &mut lengths, &mut values);
+    let places = pattern.iter().map(|&(cable, i)| (Some(cable), layout.unknown(i)));
+    let entries = places.zip(&values).map(|((cable, i), &value)| (cable, i, value));
+    let gradient = Entries::new(lengths.len(), layout.unknowns(), entries);
+    (lengths, gradient)
 }

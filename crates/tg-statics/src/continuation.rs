@@ -28,7 +28,7 @@ pub fn continuation(
     options: &ContinuationOptions,
 ) -> Result<Branch, ContinuationError> {
     let mut path = Path::new(family, q, range, options)?;
-    let mut here = path.start(q, range)?;
+    let mut here = path.start(q)?;
     let mut branch = Branch { points: vec![here.point.clone()], events: Vec::new(), end: BranchEnd::Steps };
     let mut step = options.step;
     for _ in 0..options.steps {

@@ -7,8 +7,8 @@
 //! equilibrium, dynamic relaxation brings the structure near a minimum of its energy and Newton's method finishes. Rigid
 //! motions that supports and loads leave free are gauged: the structure settles where it stands.
 
-use tg_model::{At, Tensioned};
-use tg_tangent::{Configuration, EigenOptions, Metric, Sign, TangentError, balance, lowest};
+use tg_model::Tensioned;
+use tg_tangent::{Configuration, EigenOptions, Metric, Sign, TangentError, lowest};
 
 use crate::forward_error::ForwardError;
 use crate::forward_options::{ForwardOptions, ForwardReport, Seek};
@@ -157,9 +157,8 @@ impl<'s> Walk<'s> {
             self.report.relaxation_steps = self.report.relaxation_steps.max(relaxation.steps);
             self.report.relaxation_stops = self.report.relaxation_stops.max(relaxation.stops);
             let arrived = arrived?;
-            let force = self.free_force(u);
             let mechanics = self.structure.mechanics();
-            self.lambda = balance(mechanics, &self.q, &force)?.0;
+            self.lambda = Configuration::at(mechanics, &self.q, u)?.lambda;
             self.system = NewtonSystem::new(mechanics, held_coordinates(self.structure, &self.q, u)?, false)?;
             self.report.gauged = self.system.gauged();
             found = self.newton(u)?;
@@ -187,14 +186,6 @@ impl<'s> Walk<'s> {
             }
         }
         Err(self.failure(u, 1.0)?)
-    }
-
-    fn free_force(&self, u: &[f64]) -> Vec<f64> {
-        let mechanics = self.structure.mechanics();
-        let rest = vec![0.0; self.q.len()];
-        let mut force = rest.clone();
-        mechanics.force(At { q: &self.q, v: &rest, u, taut: None }, &mut force);
-        mechanics.free().iter().map(|&i| force[i]).collect()
     }
 
     fn finish(mut self, u: &[f64]) -> Result<Equilibrium, ForwardError> {

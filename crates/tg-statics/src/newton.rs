@@ -61,14 +61,16 @@ pub(crate) fn newton(
         let mut shift = 0.0;
         let mut accepted = false;
         for _ in 0..MOST_SHIFTS {
+            if shift > 0.0 {
+                // The last trial has left the system at its own place.
+                system.evaluate(mechanics, q, u, lambda, scale);
+            }
             let factored = system.factor(mechanics, q, u, lambda, shift, None);
             shift = if shift == 0.0 { FIRST_SHIFT * system.scale() } else { shift * SHIFT_GROWTH };
             if factored.is_err() {
                 continue;
             }
-            // The last trial has overwritten the residual.
-            system.evaluate(mechanics, q, u, lambda, scale);
-            let Ok(step) = system.newton_step(mechanics, 0.0) else { continue };
+            let Ok(step) = system.newton_step(mechanics) else { continue };
             let largest = step.q.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
             let (dq, dl) = (step.q.to_vec(), step.lambda.to_vec());
             let mut length = if largest > reach && reach > 0.0 { reach / largest } else { 1.0 };

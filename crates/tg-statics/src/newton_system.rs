@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! [K + σI   -F_p   -Aᵀ  -Gᵀ] [δq]   [r]      r = F + Aᵀλ
-//! [t_qᵀ      t_p    0    0 ] [δp] = [s]      arclength row, with a parameter only
+//! [t_qᵀ      t_p    0    0 ] [δp] = [0]      arclength row, with a parameter only: steps stay in the guess's plane
 //! [A         0      0    0 ] [δλ]   [-Φ]
 //! [G         0      0    0 ] [· ]   [0]      held coordinates
 //! ```
@@ -200,12 +200,8 @@ impl NewtonSystem {
         self.system.factor().map_err(|source| named(&self.layout, mechanics, source))
     }
 
-    /// The Newton step from the last evaluation: δq over the free coordinates, δp if there is one, δλ. `arclength` is s.
-    pub(crate) fn newton_step(
-        &mut self,
-        mechanics: &dyn Mechanics,
-        arclength: f64,
-    ) -> Result<Step<'_>, TangentError> {
+    /// The Newton step from the last evaluation: δq over the free coordinates, δp if there is one, δλ.
+    pub(crate) fn newton_step(&mut self, mechanics: &dyn Mechanics) -> Result<Step<'_>, TangentError> {
         let (n, m) = (self.unknowns(), self.phi.len());
         let p = usize::from(self.parameter);
         self.force.fill(0.0);
@@ -215,7 +211,7 @@ impl NewtonSystem {
             *step = r + self.force[i];
         }
         if self.parameter {
-            self.step[n] = arclength;
+            self.step[n] = 0.0;
         }
         for (rhs, phi) in self.step[n + p..].iter_mut().zip(&self.phi) {
             *rhs = -phi;

@@ -68,7 +68,8 @@ impl<'f> Path<'f> {
     }
 
     /// The equilibrium at the start of the range; the path sets out towards its end.
-    pub(crate) fn start(&mut self, q: &[f64], range: (f64, f64)) -> Result<Place, ContinuationError> {
+    pub(crate) fn start(&mut self, q: &[f64]) -> Result<Place, ContinuationError> {
+        let range = self.range;
         let instance = self.family.at(range.0)?;
         let at = Configuration::at(instance.structure().mechanics(), q, &instance.u)?;
         let mut direction = vec![0.0; self.free.len() + 1];
@@ -162,7 +163,7 @@ impl<'f> Path<'f> {
                 return self.place(q, &lambda, p, length, corrections, tangent).map(Some);
             }
             // Steps stay in the plane: the guess lies in it.
-            let Ok(step) = self.system.newton_step(mechanics, 0.0) else { return Ok(None) };
+            let Ok(step) = self.system.newton_step(mechanics) else { return Ok(None) };
             self.free.iter().zip(step.q).for_each(|(&i, d)| q[i] += d);
             lambda.iter_mut().zip(step.lambda).for_each(|(l, d)| *l += d);
             p += step.p;

@@ -11,6 +11,7 @@ use tg_model::{Layout, Tensioned};
 use tg_tangent::faer::Mat;
 use tg_tangent::{Configuration, Entries, TangentError, balance, dense};
 
+use crate::cable_equilibrium::lengths;
 use crate::program::{Program, ProgramError};
 use crate::self_stress::SelfStress;
 
@@ -126,13 +127,16 @@ fn product_forms(
     let free = mechanics.free();
     let w = Mat::from_fn(n, analysis.mechanisms.len(), |r, c| analysis.mechanisms[c][free[r]]);
     let mut values = vec![0.0; mechanics.stiffness_pattern().len()];
+    let (_, gradient) = lengths(structure, &at.q);
     let mut forms = Vec::new();
     for state in &analysis.states {
         structure.geometric_stiffness(&at.q, state, &mut values);
         let places = mechanics.stiffness_pattern().iter();
         let geometric =
             places.zip(&values).map(|(&(r, c), &value)| (layout.unknown(r), layout.unknown(c), value));
-        let lambda = multipliers(structure, at, state)?;
+        let mut force = vec![0.0; n];
+        gradient.add_transposed_product(-1.0, state, &mut force);
+        let (lambda, _) = balance(mechanics, &at.q, &force)?;
         let hessian = mechanics
             .constraint_hessian()
             .iter()
@@ -141,23 +145,4 @@ fn product_forms(
         forms.push(w.transpose() * stiffness.times(&w));
     }
     Ok(forms)
-}
-
-/// Multipliers of the constraint forces that balance given tensions.
-fn multipliers(
-    structure: &dyn Tensioned,
-    at: &Configuration,
-    tensions: &[f64],
-) -> Result<Vec<f64>, TangentError> {
-    let layout = Layout::new(structure.mechanics());
-    let pattern = structure.length_pattern();
-    let (mut lengths, mut gradients) = (vec![0.0; tensions.len()], vec![0.0; pattern.len()]);
-    structure.lengths(&at.q, &mut lengths, &mut gradients);
-    let mut force = vec![0.0; layout.unknowns()];
-    for (&(cable, i), gradient) in pattern.iter().zip(&gradients) {
-        if let Some(k) = layout.unknown(i) {
-            force[k] -= tensions[cable] * gradient;
-        }
-    }
-    Ok(balance(structure.mechanics(), &at.q, &force)?.0)
 }

@@ -34,10 +34,8 @@ impl<'s> Relaxation<'s> {
         let mechanics = structure.mechanics();
         let layout = Layout::new(mechanics);
         let diagonal: Vec<_> = mechanics.free().iter().map(|&i| (i, i)).collect();
-        let pattern = layout.saddle(mechanics, &[&diagonal]).map_err(|source| TangentError::Sparse {
-            doing: "preparing dynamic relaxation",
-            culprit: layout.name(mechanics, &source),
-            source,
+        let pattern = layout.saddle(mechanics, &[&diagonal]).map_err(|source| {
+            TangentError::sparse("preparing dynamic relaxation", &layout, mechanics, source)
         })?;
         let n = layout.unknowns();
         Ok(Self {
@@ -147,10 +145,6 @@ impl<'s> Relaxation<'s> {
 
     fn named(&self, result: Result<(), tg_sparse::SparseError>) -> Result<(), TangentError> {
         let mechanics = self.structure.mechanics();
-        result.map_err(|source| TangentError::Sparse {
-            doing: "relaxing",
-            culprit: self.layout.name(mechanics, &source),
-            source,
-        })
+        result.map_err(|source| TangentError::sparse("relaxing", &self.layout, mechanics, source))
     }
 }

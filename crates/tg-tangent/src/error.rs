@@ -78,7 +78,8 @@ pub enum TangentError {
 }
 
 impl TangentError {
-    pub(crate) fn sparse(
+    /// A sparse solver's error under the user's name of the equation it is about.
+    pub fn sparse(
         doing: &'static str,
         layout: &Layout,
         mechanics: &dyn Mechanics,
