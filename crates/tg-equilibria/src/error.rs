@@ -36,14 +36,14 @@ pub enum EquilibriaError {
         /// Inputs of the structure.
         expected: usize,
     },
-    /// A rest length is zero where the family has it in its polynomials, or the other way round.
+    /// An input is zero where the family has it in its polynomials, or the other way round.
     #[error(
-        "the rest length of cable \"{cable}\" is {value} m: a family is for cables that keep a free length, or that have none"
+        "the {input} is {value}: a family is for inputs that stay other than zero, or stay zero; make a family with this one"
     )]
     OtherFamily {
-        /// Name of the cable.
-        cable: String,
-        /// Rest length asked for \[m\].
+        /// What the input is.
+        input: String,
+        /// The value asked for \[m, N\].
         value: f64,
     },
 }

@@ -1,51 +1,62 @@
-//! The same structure with other rest lengths: a parameter homotopy from one generic complex instance follows only as many
-//! paths as there are solutions.
+//! The same structure with other rest lengths and loads: a parameter homotopy from one generic complex instance follows
+//! only as many paths as there are solutions.
 
-use tg_homotopy::{Complex64, GenericInstance, ParameterSolver, PathOptions, SolveOptions, Start, solve};
-use tg_model::{Model, Tensioned};
+use tg_homotopy::{Complex64, GenericInstance, ParameterSolver, PathOptions, PolynomialSystem, solve};
+use tg_model::{Mechanics, Model};
 
-use crate::equilibria::{EquilibriaOptions, judge, parameters, prepare};
+use crate::equilibria::{EquilibriaOptions, prepare};
 use crate::error::EquilibriaError;
+use crate::judge::judge;
 use crate::report::EquilibriaReport;
 use crate::stationarity::Stationarity;
 
-/// A family of planar structures with its generic solutions; the rest lengths of the cables that have one may change,
-/// loads and geometry stay.
-pub struct Family<'m> {
-    model: &'m Model<2>,
-    form: Stationarity,
+/// A family of structures with its generic solutions. Inputs other than zero may change: rest lengths and loads; what is
+/// zero stays zero, for it makes a family of its own with fewer solutions. Geometry and stiffness stay.
+pub struct Family<'m, const D: usize> {
+    model: &'m Model<D>,
+    form: Stationarity<D>,
     instance: GenericInstance,
     paths: PathOptions,
 }
 
-impl<'m> Family<'m> {
+impl<'m, const D: usize> Family<'m, D> {
     /// Solves a generic complex member of the family of `u` from scratch.
     ///
     /// # Errors
     /// As [`crate::all_equilibria`].
-    pub fn new(model: &'m Model<2>, u: &[f64], options: &EquilibriaOptions) -> Result<Self, EquilibriaError> {
+    pub fn new(model: &'m Model<D>, u: &[f64], options: &EquilibriaOptions) -> Result<Self, EquilibriaError> {
         let form = prepare(model, u)?;
-        // Rest lengths turned into the complex plane by angles that no real problem has.
-        let generic: Vec<Complex64> = form
-            .springs
-            .iter()
-            .enumerate()
-            .map(|(s, &cable)| Complex64::from_polar(u[cable], 0.7 + 1.1 * s as f64))
-            .collect();
-        let solve_options = SolveOptions {
-            start: Start::Best(form.groupings.clone()),
-            seed: options.seed,
-            max_paths: options.max_paths,
-            paths: options.paths.clone(),
-        };
-        let solved = solve(&form.system, &generic, &solve_options)?;
-        let instance = GenericInstance { parameters: generic, solutions: solved.solutions() };
+        // Inputs turned into the complex plane by angles that no real problem has.
+        let turned = |(k, &input): (usize, &usize)| Complex64::from_polar(u[input], 0.7 + 1.1 * k as f64);
+        let parameters: Vec<Complex64> = form.inputs.iter().enumerate().map(turned).collect();
+        let solved = solve(&form.system, &parameters, &options.solve(&form))?;
+        let instance = GenericInstance { parameters, solutions: solved.solutions() };
+        Ok(Self { model, form, instance, paths: options.paths.clone() })
+    }
+
+    /// The family of `u` with an instance that [`Family::instance`] gave before, for the same structure.
+    ///
+    /// # Errors
+    /// As [`Family::new`]; an instance with other numbers of parameters or unknowns.
+    pub fn with_instance(
+        model: &'m Model<D>,
+        u: &[f64],
+        instance: GenericInstance,
+        options: &EquilibriaOptions,
+    ) -> Result<Self, EquilibriaError> {
+        let form = prepare(model, u)?;
+        ParameterSolver::new(&form.system, instance.clone(), None, options.paths.clone())?;
         Ok(Self { model, form, instance, paths: options.paths.clone() })
     }
 
     /// The structure.
-    pub fn model(&self) -> &'m Model<2> {
+    pub fn model(&self) -> &'m Model<D> {
         self.model
+    }
+
+    /// The generic parameters and solutions: plain data, to be stored.
+    pub fn instance(&self) -> &GenericInstance {
+        &self.instance
     }
 
     /// Number of generic solutions: the paths of a query.
@@ -53,22 +64,29 @@ impl<'m> Family<'m> {
         self.instance.solutions.len()
     }
 
-    /// All equilibria at other rest lengths.
+    pub(crate) fn system(&self) -> &PolynomialSystem {
+        &self.form.system
+    }
+
+    pub(crate) fn paths(&self) -> &PathOptions {
+        &self.paths
+    }
+
+    /// All equilibria at other inputs.
     ///
     /// # Errors
-    /// A rest length that is zero where the family's is not, or the other way round; other loads than the family's are not
-    /// looked at.
+    /// An input that is zero where the family's is not, or the other way round.
     pub fn query(&self, u: &[f64]) -> Result<EquilibriaReport, EquilibriaError> {
-        for (cable, &value) in u.iter().enumerate().take(self.model.cable_count()) {
-            let has_rest = self.form.springs.contains(&cable);
-            if has_rest == (value == 0.0) {
-                return Err(EquilibriaError::OtherFamily {
-                    cable: Tensioned::cable_name(self.model, cable),
-                    value,
-                });
+        let expected = self.model.sizes().inputs;
+        if u.len() != expected {
+            return Err(EquilibriaError::Inputs { found: u.len(), expected });
+        }
+        for (input, &value) in u.iter().enumerate() {
+            if self.form.inputs.contains(&input) == (value == 0.0) && !self.form.idle.contains(&input) {
+                return Err(EquilibriaError::OtherFamily { input: self.model.input_name(input), value });
             }
         }
-        let target = parameters(&self.form, u);
+        let target = self.form.parameters_at(u);
         let solver =
             ParameterSolver::new(&self.form.system, self.instance.clone(), None, self.paths.clone())?;
         let solved = solver.query(&target)?;

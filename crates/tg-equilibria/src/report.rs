@@ -1,5 +1,7 @@
 //! What a search for all equilibria found, and what supports that it is all.
 
+use std::fmt;
+
 use tg_homotopy::SingularSolution;
 use tg_statics::Configuration;
 
@@ -48,6 +50,9 @@ pub struct EquilibriaReport {
     pub largest_radius: f64,
     /// Real solutions, energy ascending.
     pub equilibria: Vec<RealEquilibrium>,
+    /// What [`EquilibriaReport::index_sum`] must be, where it is known: the Euler characteristic of the space of
+    /// configurations, for a structure that is a tree of pivoted members with springs of zero free length.
+    pub euler_characteristic: Option<i64>,
 }
 
 impl EquilibriaReport {
@@ -61,14 +66,42 @@ impl EquilibriaReport {
         self.equilibria.iter().filter(|e| e.stable)
     }
 
-    /// Σ (-1)^negative over physical equilibria: the Euler characteristic of the space of configurations where the energy is
-    /// smooth (zero for the angles of planar linkages without loops), a check that costs nothing.
+    /// Σ (-1)^negative over physical equilibria. A smooth potential on a space without boundary makes it the Euler
+    /// characteristic (Poincaré and Hopf); where a spring with free length can have no length, the potential has a cone,
+    /// and each cone that is a peak counts as a maximum that is missing here.
     pub fn index_sum(&self) -> i64 {
         self.physical().filter_map(|e| e.negative).map(|n| if n % 2 == 0 { 1 } else { -1 }).sum()
     }
 
-    /// Whether every path is accounted for: none failed, every finite solution is certified and known to be real or not.
+    /// Whether every path is accounted for: none failed, every finite solution is certified and known to be real or not,
+    /// and the indices add up where their sum is known.
     pub fn is_complete(&self) -> bool {
-        self.failed == 0 && self.rejected == 0 && self.undecided == 0 && self.certified == self.finite
+        self.failed == 0
+            && self.rejected == 0
+            && self.undecided == 0
+            && self.certified == self.finite
+            && self.euler_characteristic.is_none_or(|expected| expected == self.index_sum())
+    }
+}
+
+impl fmt::Display for EquilibriaReport {
+    /// Counts and what supports them, then a line for each physical equilibrium.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { paths, at_infinity, failed, certified, undecided, rejected, .. } = self;
+        let (singular, real) = (self.singular.len(), self.equilibria.len());
+        writeln!(f, "{paths} paths: {at_infinity} to infinity, {failed} lost, {singular} singular ends")?;
+        writeln!(
+            f,
+            "{certified} solutions certified, {undecided} of them perhaps real; {rejected} without proof"
+        )?;
+        let (physical, stable) = (self.physical().count(), self.stable().count());
+        writeln!(f, "{real} real, {physical} physical, {stable} stable; index sum {}", self.index_sum())?;
+        for e in self.physical() {
+            let index = e.negative.map_or("no equilibrium".into(), |n| format!("{n} negative"));
+            let kind = if e.stable { "stable" } else { &index };
+            let taut = if e.taut { "" } else { ", a cable that only pulls is short" };
+            writeln!(f, "  energy {:.12e} J  {kind}{taut}", e.energy)?;
+        }
+        Ok(())
     }
 }

@@ -1,15 +1,15 @@
-//! A sweep of one rest length: all equilibria at each value, folds between them.
+//! A sweep of one input: all equilibria at each value, the curves that they lie on, and the folds where curves end.
 //!
-//! Counts change only at folds, where continuation from an equilibrium of the richer side turns back.
+//! From one sample to the next an equilibrium goes on as the nearest one with as many negative eigenvalues. Those that find
+//! no successor have met another one at a fold, where continuation from them turns back.
 
-use tg_model::Tensioned;
 use tg_statics::{Configuration, ContinuationOptions, EventKind, InputFamily, continuation};
 
 use crate::error::EquilibriaError;
 use crate::family::Family;
-use crate::report::EquilibriaReport;
+use crate::report::{EquilibriaReport, RealEquilibrium};
 
-/// Folds closer than this part of the swept range and of the structure are one.
+/// Folds closer than this part of the swept range, and of the structure, are one.
 const SAME: f64 = 1e-6;
 /// How far behind a sample a branch is followed before it is given up, in steps of the sweep.
 const BEHIND: f64 = 0.5;
@@ -17,65 +17,151 @@ const BEHIND: f64 = 0.5;
 /// All equilibria along a sweep.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// Rest lengths \[m\] and what was found there.
+    /// Values of the input and what was found there.
     pub samples: Vec<(f64, EquilibriaReport)>,
+    /// Curves of physical equilibria, by their first sample.
+    pub curves: Vec<Curve>,
     /// Folds between samples, ascending.
     pub folds: Vec<Fold>,
+}
+
+/// Physical equilibria that follow each other from sample to sample without a fold: all have as many negative eigenvalues.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// Negative eigenvalues of the reduced Hessian.
+    pub negative: usize,
+    /// Every equilibrium on it is stable.
+    pub stable: bool,
+    /// The equilibria.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A place in a sweep: `samples[sample].1.equilibria[equilibrium]`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CurvePoint {
+    /// Number of the sample.
+    pub sample: usize,
+    /// Number of the equilibrium in it.
+    pub equilibrium: usize,
 }
 
 /// Where two equilibria meet and vanish.
 #[derive(Clone, Debug)]
 pub struct Fold {
-    /// The rest length \[m\].
-    pub rest: f64,
+    /// The input's value \[m or N\].
+    pub value: f64,
     /// The equilibrium there.
     pub configuration: Configuration,
 }
 
-impl Family<'_> {
-    /// All equilibria at each of the ascending rest lengths `values` of a cable, the other inputs being those of `u`, and
-    /// the folds between them.
+impl Sweep {
+    /// The equilibrium at a point of a curve.
+    pub fn at(&self, point: CurvePoint) -> &RealEquilibrium {
+        &self.samples[point.sample].1.equilibria[point.equilibrium]
+    }
+}
+
+impl<const D: usize> Family<'_, D> {
+    /// All equilibria at each of the ascending `values` of an input, the others being those of `u`. Two folds within one
+    /// step of the sweep that undo each other stay unseen.
     ///
     /// # Errors
     /// As [`Family::query`]; an equilibrium that continuation cannot start from.
-    pub fn sweep(&self, u: &[f64], cable: usize, values: &[f64]) -> Result<Sweep, EquilibriaError> {
-        let mut samples: Vec<(f64, EquilibriaReport)> = Vec::new();
+    pub fn sweep(&self, u: &[f64], input: usize, values: &[f64]) -> Result<Sweep, EquilibriaError> {
+        let mut inputs = u.to_vec();
+        let mut samples = Vec::new();
         for &value in values {
-            let mut inputs = u.to_vec();
-            inputs[cable] = value;
+            *inputs
+                .get_mut(input)
+                .ok_or(EquilibriaError::Inputs { found: input + 1, expected: u.len() })? = value;
             samples.push((value, self.query(&inputs)?));
         }
-        let mut folds: Vec<Fold> = Vec::new();
-        for pair in samples.windows(2) {
-            let counts = [pair[0].1.physical().count(), pair[1].1.physical().count()];
-            if counts[0] == counts[1] {
-                continue;
-            }
-            // Those that vanish do so on the way from the side that has more.
-            let (from, to) = if counts[0] > counts[1] { (&pair[0], &pair[1]) } else { (&pair[1], &pair[0]) };
-            for equilibrium in from.1.physical() {
-                let family = InputFamily::rest_length(self.model(), u, cable);
-                let options = ContinuationOptions { behind: BEHIND, ..ContinuationOptions::default() };
-                let branch = continuation(&family, &equilibrium.configuration.q, (from.0, to.0), &options)?;
-                let turns = branch.events.into_iter().filter(|event| event.kind == EventKind::LimitPoint);
-                let found =
-                    turns.map(|event| Fold { rest: event.parameter, configuration: event.configuration });
-                folds.extend(found.take(1));
+        let mut sweep = Sweep { samples, curves: Vec::new(), folds: Vec::new() };
+        for sample in 0..values.len() {
+            let (ended, begun) = sweep.extend_curves(sample);
+            // At the first sample curves begin without a fold.
+            let Some(before) = sample.checked_sub(1) else { continue };
+            for point in ended.iter().chain(&begun) {
+                let other = if point.sample == before { sample } else { before };
+                self.find_fold(&mut sweep, u, input, (*point, values[point.sample], values[other]))?;
             }
         }
-        folds.sort_by(|a, b| a.rest.total_cmp(&b.rest));
-        let range = values.last().copied().unwrap_or(0.0) - values.first().copied().unwrap_or(0.0);
-        folds.dedup_by(|a, b| self.same(a, b, range));
-        Ok(Sweep { samples, folds })
+        sweep.folds.sort_by(|a, b| a.value.total_cmp(&b.value));
+        Ok(sweep)
     }
 
-    fn same(&self, a: &Fold, b: &Fold, range: f64) -> bool {
-        let pairs = a.configuration.q.iter().zip(&b.configuration.q);
-        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let mut lengths = vec![0.0; self.model().cable_count()];
-        let mut gradients = vec![0.0; self.model().length_pattern().len()];
-        self.model().lengths(&a.configuration.q, &mut lengths, &mut gradients);
-        let size = lengths.iter().fold(0.0_f64, |m, l| m.max(*l));
-        (a.rest - b.rest).abs() <= SAME * range && apart <= SAME * size.max(f64::MIN_POSITIVE) * 1e3
+    /// Follows an equilibrium without successor to its fold.
+    fn find_fold(
+        &self,
+        sweep: &mut Sweep,
+        u: &[f64],
+        input: usize,
+        (point, from, to): (CurvePoint, f64, f64),
+    ) -> Result<(), EquilibriaError> {
+        let (mut origin, mut direction) = (u.to_vec(), vec![0.0; u.len()]);
+        (origin[input], direction[input]) = (0.0, 1.0);
+        let family = InputFamily::new(self.model(), &origin, &direction);
+        let options = ContinuationOptions { behind: BEHIND, ..ContinuationOptions::default() };
+        let branch = continuation(&family, &sweep.at(point).configuration.q, (from, to), &options)?;
+        let turn = branch.events.into_iter().find(|event| event.kind == EventKind::LimitPoint);
+        if let Some(event) = turn {
+            let fold = Fold { value: event.parameter, configuration: event.configuration };
+            let range = sweep.samples[sweep.samples.len() - 1].0 - sweep.samples[0].0;
+            if !sweep.folds.iter().any(|known| known.is(&fold, range)) {
+                sweep.folds.push(fold);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Fold {
+    fn is(&self, other: &Self, range: f64) -> bool {
+        let size = self.configuration.q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let apart = distance(&self.configuration, &other.configuration);
+        (self.value - other.value).abs() <= SAME * range && apart <= SAME.sqrt() * size
+    }
+}
+
+/// Largest difference of a coordinate.
+fn distance(a: &Configuration, b: &Configuration) -> f64 {
+    a.q.iter().zip(&b.q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+impl Sweep {
+    /// Carries curves on to a sample: the points that find no successor there, and those without predecessor.
+    fn extend_curves(&mut self, sample: usize) -> (Vec<CurvePoint>, Vec<CurvePoint>) {
+        let equilibria = &self.samples[sample].1.equilibria;
+        let mut news: Vec<usize> =
+            (0..equilibria.len()).filter(|&e| equilibria[e].negative.is_some()).collect();
+        let is_open = |curve: &Curve| curve.points.last().is_some_and(|last| last.sample + 1 == sample);
+        let mut open: Vec<usize> = (0..self.curves.len()).filter(|&c| is_open(&self.curves[c])).collect();
+        let mut pairs = Vec::new();
+        for &curve in &open {
+            let last = self.curves[curve].points[self.curves[curve].points.len() - 1];
+            for &e in news.iter().filter(|&&e| equilibria[e].negative == Some(self.curves[curve].negative)) {
+                let apart = distance(&self.at(last).configuration, &equilibria[e].configuration);
+                pairs.push((apart, curve, e));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, curve, equilibrium) in pairs {
+            if open.contains(&curve) && news.contains(&equilibrium) {
+                open.retain(|&c| c != curve);
+                news.retain(|&e| e != equilibrium);
+                let stable = self.samples[sample].1.equilibria[equilibrium].stable;
+                self.curves[curve].stable &= stable;
+                self.curves[curve].points.push(CurvePoint { sample, equilibrium });
+            }
+        }
+        let ended = open.iter().filter_map(|&c| self.curves[c].points.last().copied()).collect();
+        let mut begun = Vec::new();
+        for equilibrium in news {
+            let point = CurvePoint { sample, equilibrium };
+            let RealEquilibrium { negative, stable, .. } = *self.at(point);
+            self.curves.push(Curve { negative: negative.unwrap_or(0), stable, points: vec![point] });
+            begun.push(point);
+        }
+        (ended, begun)
     }
 }

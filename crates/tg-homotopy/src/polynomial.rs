@@ -29,6 +29,14 @@ fn merge(a: &Exponents, b: &Exponents) -> Exponents {
     all.into_iter().collect()
 }
 
+/// One factor less of the entry `at`.
+fn lower(list: &mut Exponents, at: usize) {
+    list[at].1 -= 1;
+    if list[at].1 == 0 {
+        list.remove(at);
+    }
+}
+
 impl Polynomial {
     pub(crate) fn unknown(index: usize) -> Self {
         Self::monomial(Monomial { unknowns: vec![(index, 1)], parameters: vec![] })
@@ -79,6 +87,68 @@ impl Polynomial {
 
     pub(crate) fn terms(&self) -> impl Iterator<Item = (&Monomial, Complex64)> {
         self.terms.iter().map(|(m, c)| (m, *c))
+    }
+
+    /// Degree in the unknowns; of the zero polynomial 0.
+    pub fn degree(&self) -> u32 {
+        self.terms.keys().map(|m| m.unknowns.iter().map(|f| f.1).sum()).max().unwrap_or(0)
+    }
+
+    /// The partial derivative by the unknown with this number, in the order of their declaration.
+    pub fn derivative(&self, unknown: usize) -> Self {
+        let mut slope = Self::default();
+        for (m, c) in self.terms() {
+            if let Some(at) = m.unknowns.iter().position(|f| f.0 == unknown) {
+                let mut rest = m.clone();
+                let exponent = rest.unknowns[at].1;
+                lower(&mut rest.unknowns, at);
+                slope.add_term(rest, c * f64::from(exponent));
+            }
+        }
+        slope
+    }
+
+    /// The polynomial modulo x_a x_b - `product`: the product of unknowns a and b (equal or not) is replaced until no term
+    /// holds it.
+    pub fn modulo(&self, (a, b): (usize, usize), product: &Self) -> Self {
+        let mut done = Self::default();
+        let mut rest = self.clone();
+        while let Some((mut m, c)) = rest.terms.pop_first() {
+            let holds = [a, b].iter().all(|&v| {
+                let needed = if a == b { 2 } else { 1 };
+                m.unknowns.iter().any(|&(u, e)| u == v && e >= needed)
+            });
+            if !holds {
+                done.add_term(m, c);
+                continue;
+            }
+            for v in [a, b] {
+                if let Some(at) = m.unknowns.iter().position(|f| f.0 == v) {
+                    lower(&mut m.unknowns, at);
+                }
+            }
+            let term = Self { terms: BTreeMap::from([(m, c)]) };
+            rest = rest + &term * product;
+        }
+        done
+    }
+
+    /// Without the terms smaller than this part of the largest: what cancellation leaves of sums that are zero.
+    pub fn chopped(mut self, part: f64) -> Self {
+        let largest = self.terms.values().map(|c| c.norm()).fold(0.0, f64::max);
+        self.terms.retain(|_, c| c.norm() > part * largest);
+        self
+    }
+
+    /// The value at unknowns x and parameters p.
+    ///
+    /// # Panics
+    /// Numbers of unknowns or parameters beyond the lists.
+    pub fn evaluate(&self, x: &[Complex64], p: &[Complex64]) -> Complex64 {
+        let product = |list: &Exponents, values: &[Complex64]| {
+            list.iter().map(|&(v, e)| values[v].powu(e)).product::<Complex64>()
+        };
+        self.terms().map(|(m, c)| c * product(&m.unknowns, x) * product(&m.parameters, p)).sum()
     }
 
     /// Every parameter p_j replaced by the j-th polynomial.

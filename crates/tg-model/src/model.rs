@@ -239,6 +239,21 @@ impl<const D: usize> Model<D> {
         self.load_starts[load.0]..self.load_starts[load.0 + 1]
     }
 
+    /// What an input is, for messages: `rest length of "name"` or `component 1 of load "name"`.
+    pub fn input_name(&self, input: usize) -> String {
+        if let Some(cable) = self.cables().nth(input) {
+            return format!("rest length of \"{}\"", self.cable_name(cable));
+        }
+        let load = self.loads().find(|&load| self.load_inputs(load).contains(&input));
+        match load {
+            Some(load) => {
+                let component = input - self.load_inputs(load).start + 1;
+                format!("component {component} of load \"{}\"", self.load_name(load))
+            }
+            None => format!("input {input}"),
+        }
+    }
+
     /// The vector l = J q of a cable (26), from its first place to its second.
     #[track_caller]
     pub fn cable_form(&self, cable: CableId) -> &Form<D> {

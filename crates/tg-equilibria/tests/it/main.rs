@@ -1,4 +1,8 @@
-//! Integration tests of tg-equilibria, one module per subject in one program.
+//! Tests of tg-equilibria.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod mechanism;
+mod refusals;
+mod space;
+mod support;
+mod sweep;
