@@ -3,13 +3,14 @@
 //! The paper has one module; this is the smallest structure beyond it. The second module stands on the first one's top
 //! body as the first stands on the ground: its points 1', 2', 3' have in the frame at point 4 the coordinates of points 1, 2,
 //! 3 in space, so that with the paper's numbers both bars and the first top body meet in point 4. A force acts on point
-//! 6' of the second top body.
+//! 5' of the second top body.
 //!
 //! With zero free lengths the potential is a Laurent polynomial in the four e^{iγ} with the exponents
 //! ```text
 //! ±(γ1, γ2, γ2-γ1),  ±(γ3-γ2, γ4-γ2, γ4-γ3) of the springs,  ±(γ1, γ3, γ4) of the force
 //! ```
-//! and has as many critical points as 4! times the volume of their hull (Kouchnirenko): 52, and 36 without the force.
+//! and has as many critical points as 4! times the volume of their hull (Kouchnirenko): 52, and 36 without the force. With
+//! a free length of spring 1 there are 532. A force on point 6', where spring 1 pulls too, is a special one: 520.
 
 use std::array::from_fn;
 
@@ -19,7 +20,7 @@ use tg_model::{LoadId, Model, ModelBuilder, Place};
 use super::{Module, ModuleParts, Parameters};
 use crate::error::CaseError;
 
-/// The force on point 6' that the cases use \[N\].
+/// The force on point 5' that the cases use \[N\].
 pub const FORCE: [f64; 2] = [0.0, -5.0];
 
 /// Two modules with the same parameters in series.
@@ -31,12 +32,12 @@ pub struct Series {
     pub parameters: Parameters,
     /// The module on the ground and the one upon it.
     pub modules: [Module; 2],
-    /// The force on point 6'.
+    /// The force on point 5'.
     pub load: LoadId,
 }
 
 impl Series {
-    /// Builds two modules with a force on point 6' \[N\].
+    /// Builds two modules with a force on point 5' \[N\].
     ///
     /// # Errors
     /// A parameter is not one of a structure.
@@ -50,7 +51,7 @@ impl Series {
         let one = Vector2::from(parameters.fixed[0]);
         let four = one + Vector2::new(0.0, parameters.bar);
         let upper = ModuleParts::add(&mut b, "upper ", base, (four + one, parameters))?;
-        let load = b.load("force", upper.top.at(parameters.six), force, 1.0)?;
+        let load = b.load("force", upper.top.at(parameters.five), force, 1.0)?;
         let model = b.build()?;
         let modules = [lower.finish(&model, parameters)?, upper.finish(&model, parameters)?];
         Ok(Self { model, parameters: *parameters, modules, load })

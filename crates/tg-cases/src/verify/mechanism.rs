@@ -3,14 +3,14 @@
 //! - `equilibria`: counts, places and energies against the values known to all printed digits;
 //! - `tables`: the paper's Tables 2 to 4, which were computed with slightly other numbers than its Table 1 prints;
 //! - [`agreement`]: the natural-coordinate model at every equilibrium;
-//! - `homotopy`: all of them from the natural-coordinate model, certified;
+//! - [`homotopy`]: all of them from the natural-coordinate model, certified;
 //! - [`sweep`]: folds as L01 varies (Fig. 4).
 //!
 //! [`expected`] gives all equilibria of a case, proven complete by interval search, for others to compare with.
 
 pub mod agreement;
 mod equilibria;
-mod homotopy;
+pub mod homotopy;
 pub mod sweep;
 mod tables;
 

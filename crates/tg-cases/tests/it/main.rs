@@ -4,5 +4,4 @@
 mod antiprism;
 mod mechanism;
 mod rows;
-mod scratch;
 mod snapshots;

@@ -3,10 +3,13 @@
 use std::array::from_fn;
 
 use nalgebra::Vector2;
+use tg_cases::antiprism::{Antiprism, EXAMPLE_2, Feet, Loads};
 use tg_cases::mechanism::{Case, FORCE, Mechanism, Parameters, Series};
 use tg_cases::reference::mechanism::wrapped;
 use tg_cases::verify::mechanism::agreement::agreement;
+use tg_cases::verify::mechanism::homotopy::Comparison;
 use tg_cases::verify::mechanism::{Expected, expected, sweep, twin};
+use tg_equilibria::{EquilibriaOptions, all_equilibria};
 use tg_model::Mechanics;
 use tg_statics::Configuration;
 
@@ -28,6 +31,8 @@ fn random_mechanisms_agree_with_the_two_angle_model() {
         assert!(expected.stable() > 0, "seed {seed}: a potential has a minimum");
         let found = agreement(&parameters, &expected).unwrap();
         assert_eq!(found.verdicts, 0, "seed {seed}");
+        let homotopy = Comparison::of(&parameters, &expected).unwrap();
+        assert!(homotopy.agrees(), "seed {seed}: {homotopy:?}");
         let all = [found.residual, found.offset, found.energy, found.angles];
         worst = from_fn(|i| worst[i].max(all[i]));
         total += expected.all().count();
@@ -67,7 +72,7 @@ fn series_potential(parameters: &Parameters, force: [f64; 2], angles: [f64; 4]) 
     let twin = twin(parameters);
     let [a, b, c, d] = angles;
     let turned = |p: Vector2<f64>| nalgebra::Rotation2::new(b) * p;
-    let tip = twin.points([a, b])[0] + turned(twin.points([c - b, d - b])[1]);
+    let tip = twin.points([a, b])[0] + turned(twin.points([c - b, d - b])[2]);
     twin.potential([a, b]) + twin.potential([c - b, d - b]) - Vector2::from(force).dot(&tip)
 }
 
@@ -123,6 +128,25 @@ fn two_unloaded_modules_rest_where_each_does() {
             assert!(at.residual.iter().all(|r| r.abs() < 1e-11), "{:?}", at.residual);
         }
     }
+}
+
+/// The count that homotopies in two public packages give; too slow for every run.
+#[test]
+#[ignore = "1330 paths, 15 s"]
+fn two_modules_with_a_free_length_have_532_solutions() {
+    let series = Series::new(&Parameters::paper(Case::Two), FORCE).unwrap();
+    let u = series.model.inputs_at(0.0);
+    let report = all_equilibria(&series.model, &u, &EquilibriaOptions::default()).unwrap();
+    assert!(report.is_complete() && report.certified == 532, "{report}");
+}
+
+/// The antiprism has a polynomial form, but far too many paths.
+#[test]
+fn an_antiprism_is_refused_with_an_estimate() {
+    let structure = Antiprism::new(&EXAMPLE_2, Feet::Fixed, &Loads::None).unwrap();
+    let u = structure.model.inputs_at(0.0);
+    let error = all_equilibria(&structure.model, &u, &EquilibriaOptions::default()).unwrap_err().to_string();
+    assert!(error.contains("560402432 paths"), "{error}");
 }
 
 #[test]

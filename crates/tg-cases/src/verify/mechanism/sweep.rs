@@ -9,7 +9,7 @@ use crate::reference::mechanism::Sweep;
 use crate::row::Rows;
 
 /// Largest L01 \[m\]: beyond it no fold is found up to 30 m.
-const MOST: f64 = 20.0;
+pub(super) const MOST: f64 = 20.0;
 const SAMPLES: usize = 200;
 
 /// Folds for |L01| ≤ 20 m with L02 = 0, Table 1 otherwise; negative L01 are the branch d1 < 0.
