@@ -12,6 +12,10 @@ const SEEDS: std::ops::Range<u64> = 0..10;
 /// Steps of the sweep of L01.
 const SAMPLES: u32 = 200;
 
+/// Difference of an angle that rounding explains \[°\]: beside a cone, condition numbers reach 4e13, and the two models
+/// round their coefficients differently.
+const ANGLE: f64 = 1e-8;
+
 const CERTIFIED: &str = "Krawczyk test, outward rounding";
 const ACCOUNTED: &str = "every path is accounted for";
 
@@ -44,9 +48,7 @@ pub(super) fn rows(rows: &mut Rows, case: Case, expected: &Expected) -> Result<(
     {
         rows.exact(format!("{name}: {what}"), count, SEARCH);
     }
-    rows.below(format!("{name}: largest difference of an angle"), "°", comparison.angle, SEARCH, 1e-10);
-    let what = format!("{name}: the same where a length is negative");
-    rows.below(what, "°", comparison.unphysical, SEARCH, 1e-6);
+    rows.below(format!("{name}: largest difference of an angle"), "°", comparison.angle, SEARCH, ANGLE);
     rows.below(format!("{name}: largest difference of an energy"), "J", comparison.energy, SEARCH, 1e-10);
     Ok(())
 }
@@ -56,10 +58,8 @@ pub(super) fn rows(rows: &mut Rows, case: Case, expected: &Expected) -> Result<(
 pub struct Comparison {
     /// Real, physical and stable solutions of both.
     pub counts: [(usize, usize); 3],
-    /// Largest difference of an angle of physical ones \[°\].
+    /// Largest difference of an angle, of physical solutions or not \[°\].
     pub angle: f64,
-    /// The same of the others, which the search knows less well: beside a cone they have condition numbers up to 4e13.
-    pub unphysical: f64,
     /// Largest difference of an energy of physical ones \[J\].
     pub energy: f64,
     /// As many certified solutions as such a mechanism has, and none in doubt.
@@ -79,15 +79,13 @@ impl Comparison {
     }
 
     fn new(mechanism: &Mechanism, report: &EquilibriaReport, expected: &Expected) -> Self {
-        let (mut angle, mut unphysical, mut energy) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut angle, mut energy) = (0.0_f64, 0.0_f64);
         for found in &report.equilibria {
             let angles = mechanism.angles(&found.configuration.q).map(f64::to_degrees);
             let Some((known, distance)) = nearest(expected.all(), angles) else { continue };
+            angle = angle.max(distance);
             if found.physical {
-                angle = angle.max(distance);
                 energy = energy.max((known.energy - found.energy).abs());
-            } else {
-                unphysical = unphysical.max(distance);
             }
         }
         Self {
@@ -97,7 +95,6 @@ impl Comparison {
                 (report.stable().count(), expected.stable()),
             ],
             angle,
-            unphysical,
             energy,
             complete: report.is_complete() && report.certified == generic_count(&mechanism.parameters),
         }
@@ -105,10 +102,7 @@ impl Comparison {
 
     /// Whether both found the same.
     pub fn agrees(&self) -> bool {
-        self.complete
-            && self.counts.iter().all(|(a, b)| a == b)
-            && self.angle.max(self.energy) < 1e-10
-            && self.unphysical < 1e-6
+        self.complete && self.counts.iter().all(|(a, b)| a == b) && self.angle < ANGLE && self.energy < 1e-10
     }
 }
 
