@@ -7,7 +7,7 @@ use tg_tangent::Configuration;
 
 use crate::error::EquilibriaError;
 use crate::judge::judge;
-use crate::report::EquilibriaReport;
+use crate::report::{EquilibriaReport, Origin};
 use crate::stationarity::Stationarity;
 
 /// Settings of the search.
@@ -51,7 +51,7 @@ pub fn all_equilibria<const D: usize>(
     let form = prepare(model, u)?;
     let parameters = form.parameters_at(u);
     let solved = solve(&form.system, &parameters, &options.solve(&form))?;
-    judge(model, u, &form, &parameters, &solved)
+    judge(model, u, &form, &parameters, (Origin::StartSystem, &solved))
 }
 
 pub(crate) fn prepare<const D: usize>(

@@ -25,9 +25,6 @@ pub enum EquilibriaError {
     /// An equilibrium cannot be judged.
     #[error(transparent)]
     Tangent(#[from] TangentError),
-    /// A branch cannot be followed to its fold.
-    #[error(transparent)]
-    Continuation(#[from] tg_statics::ContinuationError),
     /// Rest lengths of the wrong number.
     #[error("{found} inputs for a structure that has {expected}")]
     Inputs {

@@ -7,7 +7,7 @@ use tg_model::{Mechanics, Model};
 use crate::equilibria::{EquilibriaOptions, prepare};
 use crate::error::EquilibriaError;
 use crate::judge::judge;
-use crate::report::EquilibriaReport;
+use crate::report::{EquilibriaReport, Origin};
 use crate::stationarity::Stationarity;
 
 /// A family of structures with its generic solutions. Inputs other than zero may change: rest lengths and loads; what is
@@ -90,6 +90,6 @@ impl<'m, const D: usize> Family<'m, D> {
         let solver =
             ParameterSolver::new(&self.form.system, self.instance.clone(), None, self.paths.clone())?;
         let solved = solver.query(&target)?;
-        judge(self.model, u, &self.form, &target, &solved)
+        judge(self.model, u, &self.form, &target, (Origin::Family, &solved))
     }
 }

@@ -6,7 +6,7 @@ use tg_statics::{EquilibriumReport, Verdict, stability};
 
 use crate::error::EquilibriaError;
 use crate::orbit::Orbits;
-use crate::report::{EquilibriaReport, RealEquilibrium};
+use crate::report::{EquilibriaReport, Origin, RealEquilibrium};
 use crate::stationarity::Stationarity;
 
 /// Residual force above which a certified real solution is no equilibrium of the structure itself, per force that would
@@ -19,7 +19,7 @@ pub(crate) fn judge<const D: usize>(
     u: &[f64],
     form: &Stationarity<D>,
     parameters: &[Complex64],
-    solved: &SolveReport,
+    (origin, solved): (Origin, &SolveReport),
 ) -> Result<EquilibriaReport, EquilibriaError> {
     let quaternions: Vec<[usize; 4]> = form.unknowns.quaternions.values().copied().collect();
     let orbits = Orbits::new(solved.solutions(), &quaternions);
@@ -33,6 +33,7 @@ pub(crate) fn judge<const D: usize>(
     }
     real.sort_by(|a, b| a.energy.total_cmp(&b.energy));
     Ok(EquilibriaReport {
+        origin,
         paths: solved.paths.len(),
         finite: orbits.representatives.len(),
         singular: solved.singular(),

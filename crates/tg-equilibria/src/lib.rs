@@ -30,5 +30,5 @@ pub use equilibria::{EquilibriaOptions, all_equilibria};
 pub use error::EquilibriaError;
 pub use evidence::Evidence;
 pub use family::Family;
-pub use report::{EquilibriaReport, RealEquilibrium};
-pub use sweep::{Curve, CurvePoint, Fold, Sweep};
+pub use report::{EquilibriaReport, Origin, RealEquilibrium};
+pub use sweep::{Critical, Curve, CurvePoint, Sweep};

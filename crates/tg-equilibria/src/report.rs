@@ -27,9 +27,24 @@ pub struct RealEquilibrium {
     pub radius: f64,
 }
 
+/// Where the paths began: what the number of solutions is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A start system with at least as many solutions as the polynomial form can have: if no path fails, none is missing.
+    StartSystem,
+    /// The generic solutions of a [`Family`](crate::Family): none is missing if none was missing there.
+    Family,
+}
+
 /// All solutions, counted; the real ones in full.
+///
+/// What supports that they are all: [`EquilibriaReport::accounts_for_all`] for the paths, the sum of the indices, and for a
+/// family [`Family::evidence`](crate::Family::evidence), which uses neither. Each solution has a proof; that there is no
+/// other has none.
 #[derive(Clone, Debug)]
 pub struct EquilibriaReport {
+    /// Where the paths began.
+    pub origin: Origin,
     /// Paths that were followed: the start system's count, or the generic instance's.
     pub paths: usize,
     /// Regular finite complex solutions.
@@ -75,7 +90,7 @@ impl EquilibriaReport {
 
     /// Whether every path is accounted for: none failed, every finite solution is certified and known to be real or not,
     /// and the indices add up where their sum is known.
-    pub fn is_complete(&self) -> bool {
+    pub fn accounts_for_all(&self) -> bool {
         self.failed == 0
             && self.rejected == 0
             && self.undecided == 0
@@ -89,7 +104,14 @@ impl fmt::Display for EquilibriaReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { paths, at_infinity, failed, certified, undecided, rejected, .. } = self;
         let (singular, real) = (self.singular.len(), self.equilibria.len());
-        writeln!(f, "{paths} paths: {at_infinity} to infinity, {failed} lost, {singular} singular ends")?;
+        let origin = match self.origin {
+            Origin::StartSystem => "of a start system",
+            Origin::Family => "from generic solutions",
+        };
+        writeln!(
+            f,
+            "{paths} paths {origin}: {at_infinity} to infinity, {failed} lost, {singular} singular ends"
+        )?;
         writeln!(
             f,
             "{certified} solutions certified, {undecided} of them perhaps real; {rejected} without proof"

@@ -21,8 +21,13 @@ pub struct Sweep {
     pub samples: Vec<(f64, EquilibriaReport)>,
     /// Curves of physical equilibria, by their first sample.
     pub curves: Vec<Curve>,
-    /// Folds between samples, ascending.
-    pub folds: Vec<Fold>,
+    /// Folds between samples, ascending: two equilibria meet and vanish.
+    pub folds: Vec<Critical>,
+    /// Where curves cross between samples and exchange negative eigenvalues, ascending.
+    pub branch_points: Vec<Critical>,
+    /// First or last points of curves with neither up to the next sample: a cone of the potential, where a spring loses
+    /// its length, or a fold too sharp to follow.
+    pub loose_ends: Vec<CurvePoint>,
 }
 
 /// Physical equilibria that follow each other from sample to sample without a fold: all have as many negative eigenvalues.
@@ -45,9 +50,9 @@ pub struct CurvePoint {
     pub equilibrium: usize,
 }
 
-/// Where two equilibria meet and vanish.
+/// An equilibrium with a singular Hessian.
 #[derive(Clone, Debug)]
-pub struct Fold {
+pub struct Critical {
     /// The input's value \[m or N\].
     pub value: f64,
     /// The equilibrium there.
@@ -66,7 +71,7 @@ impl<const D: usize> Family<'_, D> {
     /// step of the sweep that undo each other stay unseen.
     ///
     /// # Errors
-    /// As [`Family::query`]; an equilibrium that continuation cannot start from.
+    /// As [`Family::query`].
     pub fn sweep(&self, u: &[f64], input: usize, values: &[f64]) -> Result<Sweep, EquilibriaError> {
         let mut inputs = u.to_vec();
         let mut samples = Vec::new();
@@ -76,46 +81,69 @@ impl<const D: usize> Family<'_, D> {
                 .ok_or(EquilibriaError::Inputs { found: input + 1, expected: u.len() })? = value;
             samples.push((value, self.query(&inputs)?));
         }
-        let mut sweep = Sweep { samples, curves: Vec::new(), folds: Vec::new() };
+        let mut sweep = Sweep {
+            samples,
+            curves: Vec::new(),
+            folds: Vec::new(),
+            branch_points: Vec::new(),
+            loose_ends: Vec::new(),
+        };
+        let range = values.last().copied().unwrap_or(0.0) - values.first().copied().unwrap_or(0.0);
         for sample in 0..values.len() {
             let (ended, begun) = sweep.extend_curves(sample);
             // At the first sample curves begin without a fold.
             let Some(before) = sample.checked_sub(1) else { continue };
             for point in ended.iter().chain(&begun) {
                 let other = if point.sample == before { sample } else { before };
-                self.find_fold(&mut sweep, u, input, (*point, values[point.sample], values[other]))?;
+                let Some((turns, critical)) =
+                    self.critical(&sweep, u, input, (*point, values[point.sample], values[other]))
+                else {
+                    sweep.loose_ends.push(*point);
+                    continue;
+                };
+                let list = if turns { &mut sweep.folds } else { &mut sweep.branch_points };
+                if !list.iter().any(|known| known.is(&critical, range)) {
+                    list.push(critical);
+                }
             }
         }
-        sweep.folds.sort_by(|a, b| a.value.total_cmp(&b.value));
+        // Curves that end at a pitchfork turn back there, or go on as the one that passes through.
+        let Sweep { folds, branch_points, loose_ends, .. } = &mut sweep;
+        folds.retain(|fold| !branch_points.iter().any(|known| known.is(fold, range)));
+        let passes = |point: &CurvePoint, critical: &Critical| {
+            let [before, after] = [point.sample.saturating_sub(1), (point.sample + 1).min(values.len() - 1)];
+            (values[before]..=values[after]).contains(&critical.value)
+        };
+        loose_ends.retain(|point| !branch_points.iter().any(|critical| passes(point, critical)));
+        for list in [folds, branch_points] {
+            list.sort_by(|a, b| a.value.total_cmp(&b.value));
+        }
         Ok(sweep)
     }
 
-    /// Follows an equilibrium without successor to its fold.
-    fn find_fold(
+    /// Follows an equilibrium without successor to a singular one; whether it is a fold.
+    fn critical(
         &self,
-        sweep: &mut Sweep,
+        sweep: &Sweep,
         u: &[f64],
         input: usize,
         (point, from, to): (CurvePoint, f64, f64),
-    ) -> Result<(), EquilibriaError> {
+    ) -> Option<(bool, Critical)> {
         let (mut origin, mut direction) = (u.to_vec(), vec![0.0; u.len()]);
         (origin[input], direction[input]) = (0.0, 1.0);
         let family = InputFamily::new(self.model(), &origin, &direction);
         let options = ContinuationOptions { behind: BEHIND, ..ContinuationOptions::default() };
-        let branch = continuation(&family, &sweep.at(point).configuration.q, (from, to), &options)?;
-        let turn = branch.events.into_iter().find(|event| event.kind == EventKind::LimitPoint);
-        if let Some(event) = turn {
-            let fold = Fold { value: event.parameter, configuration: event.configuration };
-            let range = sweep.samples[sweep.samples.len() - 1].0 - sweep.samples[0].0;
-            if !sweep.folds.iter().any(|known| known.is(&fold, range)) {
-                sweep.folds.push(fold);
-            }
-        }
-        Ok(())
+        let branch = continuation(&family, &sweep.at(point).configuration.q, (from, to), &options).ok()?;
+        let event = branch.events.into_iter().find(|e| {
+            let between = e.parameter >= from.min(to) && e.parameter <= from.max(to);
+            between && matches!(e.kind, EventKind::LimitPoint | EventKind::Bifurcation)
+        })?;
+        let critical = Critical { value: event.parameter, configuration: event.configuration };
+        Some((event.kind == EventKind::LimitPoint, critical))
     }
 }
 
-impl Fold {
+impl Critical {
     fn is(&self, other: &Self, range: f64) -> bool {
         let size = self.configuration.q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let apart = distance(&self.configuration, &other.configuration);

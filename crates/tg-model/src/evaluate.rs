@@ -7,6 +7,9 @@ use crate::model::Model;
 use crate::parts::axis_name;
 use crate::placed::Cable;
 
+/// Tensions below this part of κ l are not known to the twelve digits that solvers ask of a balance: l is rounded.
+const RESOLVED: f64 = 1e-4;
+
 impl<const D: usize> Mechanics for Model<D> {
     fn sizes(&self) -> Sizes {
         Sizes {
@@ -101,7 +104,10 @@ impl<const D: usize> Mechanics for Model<D> {
 
     fn force_scale(&self, at: At<'_>) -> f64 {
         let tension = |(cable, rest): (&Cable<D>, &f64)| {
-            cable.law.static_tension(cable.form.eval(at.q).norm(), *rest).abs()
+            let length = cable.form.eval(at.q).norm();
+            let tension = cable.law.static_tension(length, *rest).abs();
+            let known = RESOLVED * cable.law.linear_stiffness().unwrap_or(0.0) * length;
+            if tension == 0.0 { 0.0 } else { tension.max(known) }
         };
         let tensions = self.cables.iter().zip(at.u).map(tension);
         let forces = self.forces.iter().flat_map(|(_, input)| &at.u[*input..input + D]);

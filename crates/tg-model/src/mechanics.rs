@@ -113,7 +113,8 @@ pub trait Mechanics: Send + Sync {
     fn potential(&self, q: &[f64], u: &[f64]) -> f64;
 
     /// Size \[N\] of the largest single force that F sums (a tension, a weight, a load): what residual forces are held
-    /// against, since F itself vanishes where forces balance.
+    /// against, since F itself vanishes where forces balance. A cable counts at least with a force that the rounding of
+    /// its length leaves some digits of, so that residuals of stress-free states mean something.
     fn force_scale(&self, at: At<'_>) -> f64;
 
     /// Name of a coordinate for messages.
