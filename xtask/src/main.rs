@@ -1,7 +1,8 @@
-//! What maintainers run: `cargo xtask verify`, `cargo xtask layers`, `cargo xtask defaults`.
+//! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask defaults`.
 
 mod defaults;
 mod layers;
+mod paths;
 mod verify;
 
 use std::process::ExitCode;
@@ -29,6 +30,12 @@ enum Task {
         #[arg(long)]
         json: bool,
     },
+    /// Print the antiprisms' load paths and the mechanism's solution curves with their events.
+    Paths {
+        /// Print one JSON document with every point instead of tables.
+        #[arg(long)]
+        json: bool,
+    },
     /// Compare the crates' dependencies with the allowed ones.
     Layers,
     /// Measure what the solvers' default settings cost and give.
@@ -38,6 +45,7 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Verify { case, json } => verify::verify(case.as_deref(), json),
+        Task::Paths { json } => paths::print(json),
         Task::Layers => layers::check(),
         Task::Defaults => defaults::measure(),
     };

@@ -26,8 +26,11 @@ impl<'m, const D: usize> Family<'m, D> {
     /// As [`crate::all_equilibria`].
     pub fn new(model: &'m Model<D>, u: &[f64], options: &EquilibriaOptions) -> Result<Self, EquilibriaError> {
         let form = prepare(model, u)?;
-        // Inputs turned into the complex plane by angles that no real problem has.
-        let turned = |(k, &input): (usize, &usize)| Complex64::from_polar(u[input], 0.7 + 1.1 * k as f64);
+        // Inputs turned to either side by angles that no real problem has, not far: paths to real targets stay short.
+        let turned = |(k, &input): (usize, &usize)| {
+            let angle = 0.44 + 0.03 * (1.0 + k as f64).sqrt();
+            Complex64::from_polar(u[input], if k % 2 == 0 { angle } else { -angle })
+        };
         let parameters: Vec<Complex64> = form.inputs.iter().enumerate().map(turned).collect();
         let solved = solve(&form.system, &parameters, &options.solve(&form))?;
         let instance = GenericInstance { parameters, solutions: solved.solutions() };

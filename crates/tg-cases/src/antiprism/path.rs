@@ -6,12 +6,14 @@
 //! f_j = k (w_j - w_j0) = 0;       (E_k - E_j)·(u_j × u_k) = 0 with the nearest points inside both struts
 //! ```
 
+use std::fmt;
+
 use tg_statics::{
     Branch, BranchEnd, ContinuationOptions, EventKind, Forward, ForwardOptions, InputFamily, continuation,
 };
 
-use super::Antiprism;
 use super::nearest::{Nearest, clearance};
+use super::{Antiprism, EXAMPLE_1, EXAMPLE_2, FORCE, Feet, Loads, MOMENTS};
 use crate::error::CaseError;
 
 /// Bisections between two points of the branch: to rounding of the load factor.
@@ -50,6 +52,8 @@ pub struct PathEvent {
     pub factor: f64,
     /// Full coordinates there.
     pub q: Vec<f64>,
+    /// The point of the path before it.
+    pub after: usize,
     /// Negative Hessian eigenvalues before and behind.
     pub negative: (usize, usize),
 }
@@ -80,11 +84,47 @@ pub struct LoadPath {
     pub end: BranchEnd,
 }
 
+impl fmt::Display for PathEventKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LimitPoint => write!(f, "limit point"),
+            Self::Stability => write!(f, "stability changes"),
+            Self::Pushes { tie } => write!(f, "\"{tie}\" pushes: a cable would be slack"),
+            Self::Pulls { tie } => write!(f, "\"{tie}\" pulls again"),
+            Self::StrutsMeet { struts: (j, k) } => write!(f, "struts {} and {} meet", j + 1, k + 1),
+        }
+    }
+}
+
 impl LoadPath {
     /// First event of a kind.
     pub fn first(&self, wanted: impl Fn(&PathEventKind) -> bool) -> Option<&PathEvent> {
         self.events.iter().find(|event| wanted(&event.kind))
     }
+}
+
+/// Steps of continuation that lead past the fold of either example.
+const STEPS: u32 = 28;
+
+/// The loaded examples of the paper, with their names.
+///
+/// # Errors
+/// No structure has these parameters; both do.
+pub fn examples() -> Result<[(&'static str, Antiprism); 2], CaseError> {
+    let forces = Loads::Force(FORCE, 1.0);
+    let moments = Loads::JointMoments(MOMENTS.to_vec());
+    Ok([
+        ("example 1", Antiprism::new(&EXAMPLE_1, Feet::Sliding, &forces)?),
+        ("example 2", Antiprism::new(&EXAMPLE_2, Feet::Fixed, &moments)?),
+    ])
+}
+
+/// The load path of an example, past the fold that ends it.
+///
+/// # Errors
+/// As [`load_path`].
+pub fn past_fold(example: &Antiprism) -> Result<LoadPath, CaseError> {
+    load_path(example, 2.0, &ContinuationOptions { steps: STEPS, ..ContinuationOptions::default() })
 }
 
 /// Follows the equilibria of an antiprism from no load to `to` times its load.
@@ -115,7 +155,7 @@ pub fn load_path(
         .collect();
     let mut events: Vec<(f64, PathEvent)> = of_branch(&branch);
     for (k, pair) in points.windows(2).enumerate() {
-        for (s, event) in between(antiprism, &pair[0], &pair[1])? {
+        for (s, event) in between(antiprism, k, [&pair[0], &pair[1]])? {
             events.push((k as f64 + s, event));
         }
     }
@@ -141,7 +181,8 @@ fn of_branch(branch: &Branch) -> Vec<(f64, PathEvent)> {
         };
         from = (from..branch.points.len().saturating_sub(1)).find(changes).unwrap_or(from);
         let (factor, q) = (event.parameter, event.configuration.q.clone());
-        placed.push((from as f64 + 0.5, PathEvent { kind, factor, q, negative: event.negative }));
+        placed
+            .push((from as f64 + 0.5, PathEvent { kind, factor, q, after: from, negative: event.negative }));
         // Several events may lie between two points; the last of them leads to the next one's count.
         if branch.points[from + 1].negative == event.negative.1 {
             from += 1;
@@ -151,20 +192,24 @@ fn of_branch(branch: &Branch) -> Vec<(f64, PathEvent)> {
 }
 
 /// Ties that change sign and struts that meet between two points, each with its place between them.
-fn between(antiprism: &Antiprism, a: &PathPoint, b: &PathPoint) -> Result<Vec<(f64, PathEvent)>, CaseError> {
+fn between(
+    antiprism: &Antiprism,
+    after: usize,
+    [a, b]: [&PathPoint; 2],
+) -> Result<Vec<(f64, PathEvent)>, CaseError> {
     let mut events = Vec::new();
     let ties = [&antiprism.top, &antiprism.bottom, &antiprism.lateral];
     for (kind, ties) in ties.iter().enumerate() {
         for (j, &tie) in ties.iter().enumerate() {
-            let (before, after) = (a.tensions[kind][j], b.tensions[kind][j]);
-            if before.signum() == after.signum() {
+            let (first, last) = (a.tensions[kind][j], b.tensions[kind][j]);
+            if first.signum() == last.signum() {
                 continue;
             }
             let tension = |q: &[f64]| antiprism.tensions(q)[kind][j];
             let (s, factor, q) = locate(antiprism, a, b, tension)?;
             let tie = antiprism.model.cable_name(tie).to_owned();
-            let kind = if after < 0.0 { PathEventKind::Pushes { tie } } else { PathEventKind::Pulls { tie } };
-            events.push((s, PathEvent { kind, factor, q, negative: (a.negative, b.negative) }));
+            let kind = if last < 0.0 { PathEventKind::Pushes { tie } } else { PathEventKind::Pulls { tie } };
+            events.push((s, PathEvent { kind, factor, q, after, negative: (a.negative, b.negative) }));
         }
     }
     let n = antiprism.struts.len();
@@ -178,7 +223,7 @@ fn between(antiprism: &Antiprism, a: &PathPoint, b: &PathPoint) -> Result<Vec<(f
             let nearest = Nearest::of(antiprism, j, k, &q);
             if nearest.inside {
                 let kind = PathEventKind::StrutsMeet { struts: (j, k) };
-                events.push((s, PathEvent { kind, factor, q, negative: (a.negative, b.negative) }));
+                events.push((s, PathEvent { kind, factor, q, after, negative: (a.negative, b.negative) }));
             }
         }
     }

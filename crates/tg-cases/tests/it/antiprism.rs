@@ -1,22 +1,15 @@
 //! Key numbers of the antiprisms' load paths, and the generator's refusals.
 
-use tg_cases::antiprism::path::load_path;
-use tg_cases::antiprism::{Antiprism, EXAMPLE_1, EXAMPLE_2, FORCE, Feet, Loads, MOMENTS, Parameters, Tie};
+use tg_cases::antiprism::path::{examples, past_fold};
+use tg_cases::antiprism::{Antiprism, EXAMPLE_1, EXAMPLE_2, Feet, Loads, MOMENTS, Parameters, Tie};
 use tg_cases::simulate::record;
 use tg_integrate::State;
-use tg_statics::ContinuationOptions;
 
 #[test]
 fn load_paths() {
     let mut lines = Vec::new();
-    let moments = Loads::JointMoments(MOMENTS.to_vec());
-    for (name, parameters, feet, loads) in [
-        ("example 1", EXAMPLE_1, Feet::Sliding, Loads::Force(FORCE, 1.0)),
-        ("example 2", EXAMPLE_2, Feet::Fixed, moments),
-    ] {
-        let structure = Antiprism::new(&parameters, feet, &loads).unwrap();
-        let options = ContinuationOptions { steps: 28, ..ContinuationOptions::default() };
-        let path = load_path(&structure, 2.0, &options).unwrap();
+    for (name, structure) in examples().unwrap() {
+        let path = past_fold(&structure).unwrap();
         lines.push(format!("{name}: {} points, {:?}", path.points.len(), path.end));
         for event in &path.events {
             // Where two eigenvalues pass zero together, beside a singular point, five digits are certain.

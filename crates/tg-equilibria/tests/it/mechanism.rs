@@ -46,7 +46,7 @@ fn a_family_answers_like_a_search_from_scratch() {
     let family = Family::new(&model, &[11.5, 11.5], &options).unwrap();
     assert_eq!(family.generic_count(), 62);
     let stored = Family::with_instance(&model, &[11.5, 11.5], family.instance().clone(), &options).unwrap();
-    for free in [[11.5, 11.5], [8.0, 12.0], [5.0, 5.0]] {
+    for free in [[11.5, 11.5], [11.5, 11.5], [11.5, 11.5], [8.0, 12.0], [5.0, 5.0]] {
         let report = stored.query(&free).unwrap();
         assert_complete(&report);
         assert_same(&report, &solve(free));

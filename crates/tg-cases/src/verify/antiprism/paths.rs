@@ -8,34 +8,28 @@
 //! f = √3 k_B (√3 R_B - B_0) H / (R_B + R_T),   H² = L_s² - (R_B + R_T)²
 //! ```
 
-use tg_statics::{ContinuationOptions, Forward, ForwardOptions, stability};
+use tg_statics::{Forward, ForwardOptions, stability};
 use tg_tangent::Sign;
 
 use super::{EXACT, MODEL, apart, ends, forces, moments, twin};
-use crate::antiprism::path::{LoadPath, PathEvent, PathEventKind, load_path};
+use crate::antiprism::path::{LoadPath, PathEvent, PathEventKind, past_fold};
 use crate::antiprism::{Antiprism, EXAMPLE_1, EXAMPLE_2, FORCE, Feet, Loads};
 use crate::error::CaseError;
 use crate::row::Rows;
 
-/// Steps that lead past the fold of either example.
-const STEPS: u32 = 28;
 /// Load factors around the loss of stability of example 1.
 const FACTORS: [f64; 10] = [0.925, 0.93, 0.935, 0.94, 0.945, 0.975, 0.98, 0.985, 0.99, 0.995];
-
-fn path(structure: &Antiprism, to: f64) -> Result<LoadPath, CaseError> {
-    load_path(structure, to, &ContinuationOptions { steps: STEPS, ..ContinuationOptions::default() })
-}
 
 pub(super) fn rows(rows: &mut Rows) -> Result<(), CaseError> {
     let loads = forces::loads();
     let structure = Antiprism::new(&EXAMPLE_1, Feet::Sliding, &loads)?;
-    let found = path(&structure, 2.0)?;
+    let found = past_fold(&structure)?;
     first(rows, &structure, &found)?;
     fold(rows, "example 1", (&structure, Feet::Sliding, &loads), &found)?;
 
     let loads = moments::loads();
     let structure = Antiprism::new(&EXAMPLE_2, Feet::Fixed, &loads)?;
-    let found = path(&structure, 1.5)?;
+    let found = past_fold(&structure)?;
     fold(rows, "example 2", (&structure, Feet::Fixed, &loads), &found)?;
     second(rows, &structure, &loads, &found)
 }

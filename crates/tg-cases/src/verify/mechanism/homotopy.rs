@@ -1,6 +1,6 @@
 //! All equilibria by homotopy from the natural-coordinate model, against the interval search.
 
-use tg_equilibria::{EquilibriaOptions, EquilibriaReport, Family, all_equilibria};
+use tg_equilibria::{EquilibriaOptions, EquilibriaReport, Family, Sweep, all_equilibria};
 
 use super::{EXACT, Expected, SEARCH, nearest, sweep};
 use crate::error::CaseError;
@@ -129,13 +129,21 @@ pub(super) fn beyond(rows: &mut Rows) -> Result<(), CaseError> {
     folds(rows)
 }
 
-fn folds(rows: &mut Rows) -> Result<(), CaseError> {
+/// All equilibria for L01 up to 20 m with L02 = 0 (Fig. 4), certified.
+///
+/// # Errors
+/// The mechanism cannot be built or solved.
+pub fn certified_sweep() -> Result<Sweep, CaseError> {
     let mechanism = Mechanism::new(&Parameters::paper(Case::Two))?;
     let u = mechanism.model.inputs_at(0.0);
     let family = Family::new(&mechanism.model, &u, &EquilibriaOptions::default())?;
     let step = sweep::MOST / f64::from(SAMPLES);
     let values: Vec<f64> = (1..=SAMPLES).map(|k| step * f64::from(k)).collect();
-    let found = family.sweep(&u, 0, &values)?;
+    Ok(family.sweep(&u, 0, &values)?)
+}
+
+fn folds(rows: &mut Rows) -> Result<(), CaseError> {
+    let found = certified_sweep()?;
     let known: Vec<f64> =
         sweep::paper()?.folds.iter().map(|fold| fold.rest).filter(|&rest| rest > 0.0).collect();
     rows.exact("sweep, homotopy: folds with d1 > 0", (found.folds.len(), known.len()), SEARCH);
