@@ -107,7 +107,7 @@ impl<S: Field> Lane<S> {
     }
 
     /// x(t + dt) into `trial`; the error estimate relative to ‖x‖.
-    fn predict(
+    pub(crate) fn predict(
         &mut self,
         homotopy: &Homotopy,
         patch: &[Complex64],
@@ -166,9 +166,21 @@ impl<S: Field> Lane<S> {
         to: Complex64,
         limits: Limits,
     ) -> Step {
-        let Some(error) = self.predict(homotopy, patch, t, to - t) else {
-            return Step::Singular;
-        };
+        match self.predict(homotopy, patch, t, to - t) {
+            Some(error) => self.correct(homotopy, patch, to, limits, error),
+            None => Step::Singular,
+        }
+    }
+
+    /// From the predicted point in `trial`, whose estimated error is `error`, to the path.
+    pub(crate) fn correct(
+        &mut self,
+        homotopy: &Homotopy,
+        patch: &[Complex64],
+        to: Complex64,
+        limits: Limits,
+        error: f64,
+    ) -> Step {
         // Also true for NaN.
         if !(error <= limits.predictor) {
             return Step::TooLong { error };

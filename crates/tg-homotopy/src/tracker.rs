@@ -19,6 +19,10 @@ const CALM_STEPS: usize = 5;
 /// Failed steps in a row before precision is raised.
 const PATIENCE: usize = 4;
 
+/// ‖J⁻¹‖ up to which doubles predict well enough even where the corrector needs more digits: its unit roundoff times this
+/// is far below the predictor's tolerance.
+const PREDICTABLE: f64 = 1e9;
+
 /// How following a segment ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arrival {
@@ -42,6 +46,8 @@ pub(crate) struct Tracker<'a> {
     /// Whether patches follow the path.
     moving_patch: bool,
     calm: usize,
+    /// ‖J⁻¹‖ of the equilibrated Jacobian at the last accepted point.
+    growth: f64,
     only_extended: bool,
     pub(crate) counts: PathCounts,
 }
@@ -59,6 +65,7 @@ impl<'a> Tracker<'a> {
             previous_t: Complex64::new(1.0, 0.0),
             moving_patch: true,
             calm: 0,
+            growth: 0.0,
             only_extended: false,
             counts: PathCounts::default(),
         }
@@ -72,6 +79,7 @@ impl<'a> Tracker<'a> {
         self.moving_patch = true;
         self.t = Complex64::new(1.0, 0.0);
         self.calm = 0;
+        self.growth = 0.0;
         self.counts = PathCounts::default();
         self.choose_patch();
     }
@@ -205,6 +213,19 @@ impl<'a> Tracker<'a> {
             corrections: options.corrections,
         };
         match &mut self.extended {
+            Some(lane) if self.in_extended && self.growth <= PREDICTABLE => {
+                for (z, w) in self.double.x.iter_mut().zip(&lane.x) {
+                    *z = w.to_c64();
+                }
+                let Some(error) = self.double.predict(self.homotopy, &self.patch, self.t, to - self.t) else {
+                    self.growth = f64::INFINITY;
+                    return Step::Singular;
+                };
+                for (w, &z) in lane.trial.iter_mut().zip(&self.double.trial) {
+                    *w = z.into();
+                }
+                lane.correct(self.homotopy, &self.patch, to, limits, error)
+            }
             Some(lane) if self.in_extended => lane.step(self.homotopy, &self.patch, self.t, to, limits),
             _ => self.double.step(self.homotopy, &self.patch, self.t, to, limits),
         }
@@ -269,6 +290,7 @@ impl<'a> Tracker<'a> {
     }
 
     fn accept(&mut self, to: Complex64, growth: f64) {
+        self.growth = growth;
         self.previous_t = self.t;
         self.t = to;
         self.counts.accepted += 1;
