@@ -16,7 +16,7 @@ use crate::error::TangentError;
 pub struct Configuration {
     /// Full coordinates q.
     pub q: Vec<f64>,
-    /// Inputs u: rest lengths, then force components.
+    /// Inputs u: rest lengths \[m\], then the components of loads \[N, N m\].
     pub u: Vec<f64>,
     /// Multipliers λ.
     pub lambda: Vec<f64>,
