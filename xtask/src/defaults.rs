@@ -2,10 +2,12 @@
 //!
 //! - `stepping`: tolerance and remedies of a time step;
 //! - `eigen`: dense or sparse eigenpairs, the limit of zero;
-//! - `equilibrium`: tolerance of forward statics, steps of continuation.
+//! - `equilibrium`: tolerance of forward statics, steps of continuation;
+//! - `homotopy`: tolerances of the paths to all equilibria.
 
 mod eigen;
 mod equilibrium;
+mod homotopy;
 mod stepping;
 
 use comfy_table::{Table, presets};
@@ -14,9 +16,8 @@ use crate::TaskError;
 
 /// Prints one table per setting; always true.
 pub(crate) fn measure() -> Result<bool, TaskError> {
-    for (title, table) in
-        stepping::tables()?.into_iter().chain(eigen::tables()?).chain(equilibrium::tables()?)
-    {
+    let tables = [stepping::tables()?, eigen::tables()?, equilibrium::tables()?, homotopy::tables()?];
+    for (title, table) in tables.into_iter().flatten() {
         println!("{title}\n\n{table}\n");
     }
     Ok(true)

@@ -39,6 +39,7 @@ pub(crate) fn judge<const D: usize>(
         singular: solved.singular(),
         at_infinity: solved.at_infinity(),
         failed: solved.failures().count() + orbits.incomplete,
+        retracked: solved.paths.iter().filter(|path| path.retracked > 0).count(),
         certified: certified.count(),
         undecided: certified.with(Realness::Undecided),
         rejected: certified.rejections.len(),

@@ -55,6 +55,8 @@ pub struct EquilibriaReport {
     pub at_infinity: usize,
     /// Paths that failed: while there is one, a solution may be missing.
     pub failed: usize,
+    /// Paths that were followed again with tighter settings, since they had failed or met another one.
+    pub retracked: usize,
     /// Solutions with a proof of existence and uniqueness in their disc, pairwise different.
     pub certified: usize,
     /// Certified solutions that are neither proved real nor proved complex.
@@ -102,16 +104,14 @@ impl EquilibriaReport {
 impl fmt::Display for EquilibriaReport {
     /// Counts and what supports them, then a line for each physical equilibrium.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { paths, at_infinity, failed, certified, undecided, rejected, .. } = self;
+        let Self { paths, at_infinity, failed, retracked, certified, undecided, rejected, .. } = self;
         let (singular, real) = (self.singular.len(), self.equilibria.len());
         let origin = match self.origin {
             Origin::StartSystem => "of a start system",
             Origin::Family => "from generic solutions",
         };
-        writeln!(
-            f,
-            "{paths} paths {origin}: {at_infinity} to infinity, {failed} lost, {singular} singular ends"
-        )?;
+        writeln!(f, "{paths} paths {origin}, {retracked} of them followed again:")?;
+        writeln!(f, "{at_infinity} to infinity, {failed} lost, {singular} singular ends")?;
         writeln!(
             f,
             "{certified} solutions certified, {undecided} of them perhaps real; {rejected} without proof"

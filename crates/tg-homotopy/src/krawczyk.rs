@@ -10,6 +10,8 @@
 //! the maximum norm weighted by the radii, hence Y and all A regular. Radii come from ε-inflation (Rump, Acta Numerica 19,
 //! 2010, sec. 10).
 
+use num_complex::Complex64;
+
 use crate::complex_dd::ComplexDd;
 use crate::disc::{Disc, add_up, modulus_up};
 use crate::evaluate::Evaluator;
@@ -21,6 +23,11 @@ use crate::system::PolynomialSystem;
 const INFLATIONS: usize = 12;
 /// Smallest radius relative to the midpoint: some units of double-double.
 const FLOOR: f64 = 1e-30;
+
+/// Steps below this are refined to the end: the next one is rounding.
+const REFINED: f64 = 1e-29;
+/// Ratio of steps below which doubles are good enough to refine with.
+const SHRINKING: f64 = 1e-3;
 
 /// Why the test did not succeed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,17 +45,20 @@ pub(crate) struct Krawczyk<'a> {
     discs: Evaluator<Disc>,
     numbers: Evaluator<ComplexDd>,
     lu: Lu<ComplexDd>,
+    /// Any matrix near the inverse serves: that of doubles does for all but very ill-conditioned points.
+    rounded: Lu<Complex64>,
 }
 
 impl<'a> Krawczyk<'a> {
-    pub(crate) fn new(system: &'a PolynomialSystem, parameters: &[num_complex::Complex64]) -> Self {
+    pub(crate) fn new(system: &'a PolynomialSystem, parameters: &[Complex64]) -> Self {
         let mut discs = Evaluator::new(system);
         let exact: Vec<Disc> = parameters.iter().map(|&p| Disc::from_c64(p)).collect();
         discs.set_parameters(system, &exact);
         let mut numbers = Evaluator::new(system);
         let rounded: Vec<ComplexDd> = parameters.iter().map(|&p| p.into()).collect();
         numbers.set_parameters(system, &rounded);
-        Self { system, discs, numbers, lu: Lu::new(system.unknowns()) }
+        let n = system.unknowns();
+        Self { system, discs, numbers, lu: Lu::new(n), rounded: Lu::new(n) }
     }
 
     fn linearize(&mut self, x: &[ComplexDd]) -> (Vec<ComplexDd>, Vec<ComplexDd>) {
@@ -61,6 +71,10 @@ impl<'a> Krawczyk<'a> {
 
     /// Newton's method in double-double until the steps no longer shrink; none if the Jacobian becomes singular.
     pub(crate) fn refine(&mut self, x: &[ComplexDd]) -> Option<Vec<ComplexDd>> {
+        let mut refined = x.to_vec();
+        if self.refine_with_doubles(&mut refined) {
+            return Some(refined);
+        }
         let mut x = x.to_vec();
         let mut previous = f64::INFINITY;
         for _ in 0..60 {
@@ -81,14 +95,57 @@ impl<'a> Krawczyk<'a> {
         previous.is_finite().then_some(x)
     }
 
+    /// Values in double-double, one Jacobian in doubles: whether each step shrank the last one far, down to rounding.
+    fn refine_with_doubles(&mut self, x: &mut [ComplexDd]) -> bool {
+        let (mut values, jacobian) = self.linearize(x);
+        let jacobian: Vec<Complex64> = jacobian.iter().map(|z| z.to_c64()).collect();
+        if !self.rounded.factor(&jacobian) {
+            return false;
+        }
+        let mut previous = f64::INFINITY;
+        loop {
+            let mut delta: Vec<Complex64> = values.iter().map(|z| z.to_c64()).collect();
+            self.rounded.solve(&mut delta);
+            let delta: Vec<ComplexDd> = delta.into_iter().map(ComplexDd::from).collect();
+            for (x, &d) in x.iter_mut().zip(&delta) {
+                *x = *x - d;
+            }
+            let length = relative(&delta, x);
+            if length <= REFINED {
+                return true;
+            }
+            if !(length <= SHRINKING * previous) {
+                return false;
+            }
+            previous = length;
+            self.numbers.values(self.system, x, &mut values);
+        }
+    }
+
     /// A polydisc round `m` with exactly one zero. `tie` makes radii symmetric.
     pub(crate) fn enclose(&mut self, m: &[ComplexDd], tie: impl Fn(&mut [f64])) -> Result<Vec<Disc>, Miss> {
-        let n = m.len();
         let (_, jacobian) = self.linearize(m);
+        let rounded: Vec<Complex64> = jacobian.iter().map(|z| z.to_c64()).collect();
+        if self.rounded.factor(&rounded) {
+            let inverse: Vec<Disc> = self.rounded.inverse().into_iter().map(Disc::from_c64).collect();
+            if let Ok(polydisc) = self.enclose_with(&inverse, m, &tie) {
+                return Ok(polydisc);
+            }
+        }
         if !self.lu.factor(&jacobian) {
             return Err(Miss::Singular);
         }
         let inverse: Vec<Disc> = self.lu.inverse().into_iter().map(Disc::exact).collect();
+        self.enclose_with(&inverse, m, &tie)
+    }
+
+    fn enclose_with(
+        &mut self,
+        inverse: &[Disc],
+        m: &[ComplexDd],
+        tie: &impl Fn(&mut [f64]),
+    ) -> Result<Vec<Disc>, Miss> {
+        let n = m.len();
         let midpoint: Vec<Disc> = m.iter().map(|&z| Disc::exact(z)).collect();
         let mut values = vec![Disc::zero(); n];
         self.discs.values(self.system, &midpoint, &mut values);

@@ -1,16 +1,32 @@
 use tg_cases::row::Rows;
 use tg_cases::verify::CASES;
 
-#[test]
-fn every_number_of_the_papers_holds() {
-    for case in CASES {
-        let rows = (case.rows)().unwrap();
-        assert!(rows.len() > 30, "{} checks only {} numbers", case.name, rows.len());
-        let failed: Vec<_> = rows.iter().filter(|row| !row.pass).collect();
-        assert!(failed.is_empty(), "{failed:#?}");
-        assert!(rows.iter().all(|row| row.case == case.name && row.tolerance.is_finite()));
-    }
+#[track_caller]
+fn assert_every_number_holds(name: &str) {
+    let case = CASES.into_iter().find(|case| case.name == name).unwrap();
+    let rows = (case.rows)().unwrap();
+    assert!(rows.len() > 30, "{name} checks only {} numbers", rows.len());
+    let failed: Vec<_> = rows.iter().filter(|row| !row.pass).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+    assert!(rows.iter().all(|row| row.case == name && row.tolerance.is_finite()));
 }
+
+/// A test for each case: they run side by side.
+macro_rules! cases {
+    ($($name:ident),*) => {
+        $(#[test]
+        fn $name() {
+            assert_every_number_holds(stringify!($name));
+        })*
+
+        #[test]
+        fn every_case_has_its_test() {
+            assert_eq!(CASES.map(|case| case.name), [$(stringify!($name)),*]);
+        }
+    };
+}
+
+cases!(example1, example2, example3, antiprism, mechanism);
 
 #[test]
 fn a_row_holds_only_within_its_tolerance() {

@@ -12,6 +12,16 @@ fn all<const D: usize>(model: &Model<D>) -> tg_equilibria::EquilibriaReport {
     report
 }
 
+/// A body on a ball joint at the origin.
+fn pivoted(springs: &[Spring<3>]) -> Model<3> {
+    let mut b = ModelBuilder::<3>::new();
+    let ground = b.anchor("pivot", [0.0; 3]).unwrap();
+    let top = body(&mut b, "top", [0.0; 3]);
+    b.joint("ball", &[ground.into(), top.node(0)], Joining::Share).unwrap();
+    add_springs(&mut b, top, springs);
+    b.build().unwrap()
+}
+
 /// A body on a ball joint with springs of zero free length: V = const - tr(Bᵀ R) with B = Σ k a bᵀ, whose critical points
 /// are the eigenvectors of Davenport's matrix and V = const - its eigenvalue (Davenport's q method).
 #[test]
@@ -21,12 +31,7 @@ fn a_pivoted_body_has_the_four_equilibria_of_davenports_matrix() {
         Spring { from: [-0.4, 1.7, 0.5], to: [0.1, 0.9, 0.3], stiffness: 2.0, free: 0.0 },
         Spring { from: [0.2, -0.6, 1.9], to: [-0.3, 0.1, 1.2], stiffness: 4.0, free: 0.0 },
     ];
-    let mut b = ModelBuilder::<3>::new();
-    let ground = b.anchor("pivot", [0.0; 3]).unwrap();
-    let top = body(&mut b, "top", [0.0; 3]);
-    b.joint("ball", &[ground.into(), top.node(0)], Joining::Share).unwrap();
-    add_springs(&mut b, top, &springs);
-    let report = all(&b.build().unwrap());
+    let report = all(&pivoted(&springs));
 
     let mut profile = Matrix3::zeros();
     let mut constant = 0.0;
@@ -178,12 +183,7 @@ fn a_pivoted_body_with_free_lengths_has_what_a_search_from_everywhere_finds() {
         ];
         let spring = |((from, to, stiffness), free)| Spring { from, to, stiffness, free };
         let springs: Vec<Spring<3>> = ends.into_iter().zip(free).map(spring).collect();
-        let mut b = ModelBuilder::<3>::new();
-        let ground = b.anchor("pivot", [0.0; 3]).unwrap();
-        let top = body(&mut b, "top", [0.0; 3]);
-        b.joint("ball", &[ground.into(), top.node(0)], Joining::Share).unwrap();
-        add_springs(&mut b, top, &springs);
-        let report = all(&b.build().unwrap());
+        let report = all(&pivoted(&springs));
         let found: Vec<f64> = report.physical().map(|e| e.energy).collect();
         let expected = searched(&springs, 400);
 
