@@ -166,7 +166,9 @@ pub(crate) fn cable_state<const D: usize>(
 ) -> CableState {
     let l = form.eval(q);
     let length = l.norm();
-    let rate = l.dot(&form.eval(v)) / length;
+    // Without length there is no direction: whichever way the ends part, the length grows as fast as they do.
+    let velocity = form.eval(v);
+    let rate = if length > 0.0 { l.dot(&velocity) / length } else { velocity.norm() };
     let (tension, slack) = match *law {
         CableLaw::Linear { stiffness, damping } => {
             let law = LinearLaw::<false, true> { stiffness, damping };

@@ -65,7 +65,9 @@ fn cables<const D: usize>(
             let (point, other) = (model.form(near)?.eval(q), model.form(far)?.eval(q));
             let line = Line::through(&point, &other);
             let source = Source::Cable { name: model.cable_name(cable).into(), tension, line };
-            bodies[k].given.push(action(source, point, Wrench::force(line.direction * tension)));
+            // A spring of no free length may have no length either, and then no direction.
+            let force = if tension == 0.0 { SVector::zeros() } else { line.direction * tension };
+            bodies[k].given.push(action(source, point, Wrench::force(force)));
         }
     }
     Ok(())

@@ -56,6 +56,22 @@ fn a_hanging_chain_carries_what_hangs_below() {
     }
 }
 
+/// A spring of zero free length that has no length has no direction, and needs none.
+#[test]
+fn a_spring_without_length_pulls_nowhere() {
+    let mut b = ModelBuilder::<2>::new();
+    let peg = b.anchor("peg", [0.0, -1.0]).unwrap();
+    let ceiling = b.anchor("ceiling", [0.0, 0.0]).unwrap();
+    let bar = b.bar("bar", 2.0, [0.0, 0.0], [1.0, 0.0]).unwrap();
+    b.joint("hook", &[ceiling.into(), bar.node(0)], Joining::Share).unwrap();
+    b.cable("spring", peg, bar.node(1), CableLaw::linear(3.0), 0.0).unwrap();
+    let model = b.build().unwrap();
+    let mut q = model.initial_coordinates();
+    q[2..4].copy_from_slice(&[0.0, -1.0]);
+    let report = FreeBodyReport::new(&model, &q, &model.inputs_at(0.0)).unwrap();
+    assert!(report.unbalance == 0.0, "{}", report.unbalance);
+}
+
 /// A body of space on a hinged bar, a ball joint at a material point and cables, under loads and weight.
 fn crane(joining: Joining) -> (Model<3>, MemberId, MemberId) {
     let mut b = ModelBuilder::<3>::new();
