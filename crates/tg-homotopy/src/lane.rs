@@ -245,16 +245,23 @@ mod tests {
     use crate::complex_dd::ComplexDd;
     use crate::system::SystemBuilder;
 
-    /// x² = p followed from p = 1 to p = 2i: the predictor's error is of order h⁶, its estimate of order h⁵.
-    #[test]
+    /// x² = p from p = 1 to p = 2i, with both values of p.
     #[allow(clippy::unwrap_used)]
-    fn the_predictor_has_order_five() {
+    fn square_root() -> (Homotopy, Complex64, Complex64) {
         let mut b = SystemBuilder::new();
         let (x, p) = (b.unknown("x"), b.parameter("p"));
         b.equation(x.pow(2) - p);
         let system = b.build().unwrap();
         let (one, end) = (Complex64::new(1.0, 0.0), Complex64::new(0.0, 2.0));
         let homotopy = Homotopy::between(&system, &[one], &[end], None).unwrap();
+        (homotopy, one, end)
+    }
+
+    /// x² = p followed from p = 1 to p = 2i: the predictor's error is of order h⁶, its estimate of order h⁵.
+    #[test]
+    #[allow(clippy::unwrap_used)]
+    fn the_predictor_has_order_five() {
+        let (homotopy, one, end) = square_root();
         let mut lane: Lane<ComplexDd> = Lane::new(&homotopy);
         let errors: Vec<(f64, f64)> = [0.1, 0.05, 0.025]
             .into_iter()
@@ -273,14 +280,8 @@ mod tests {
     }
 
     #[test]
-    #[allow(clippy::unwrap_used)]
     fn a_step_does_not_allocate() {
-        let mut b = SystemBuilder::new();
-        let (x, p) = (b.unknown("x"), b.parameter("p"));
-        b.equation(x.pow(2) - p);
-        let system = b.build().unwrap();
-        let (one, end) = (Complex64::new(1.0, 0.0), Complex64::new(0.0, 2.0));
-        let homotopy = Homotopy::between(&system, &[one], &[end], None).unwrap();
+        let (homotopy, one, _) = square_root();
         let mut lane: Lane<Complex64> = Lane::new(&homotopy);
         lane.x[0] = one;
         let limits = Limits { predictor: 1e-5, corrector: 1e-9, corrections: 3 };
