@@ -1,6 +1,6 @@
 //! Certifies complex solutions and looks at the real ones as equilibria of the structure.
 
-use tg_homotopy::{CertifyOptions, Complex64, Conjugation, Realness, SolveReport, certify};
+use tg_homotopy::{CertifyOptions, Complex64, Realness, SolveReport, certify};
 use tg_model::{Model, Tensioned};
 use tg_statics::{EquilibriumReport, Verdict, stability};
 
@@ -23,10 +23,8 @@ pub(crate) fn judge<const D: usize>(
 ) -> Result<EquilibriaReport, EquilibriaError> {
     let quaternions: Vec<[usize; 4]> = form.unknowns.quaternions.values().copied().collect();
     let orbits = Orbits::new(solved.solutions(), &quaternions);
-    let conjugation = Conjugation::exchanging(&form.system, &form.unknowns.conjugates, &[])?;
-    let system = form.system.symmetrized(&conjugation)?;
-    let options = CertifyOptions { conjugation: Some(conjugation), ..CertifyOptions::default() };
-    let certified = certify(&system, parameters, &orbits.representatives, &options)?;
+    let options = CertifyOptions { conjugation: Some(form.conjugation.clone()), ..CertifyOptions::default() };
+    let certified = certify(&form.symmetric, parameters, &orbits.representatives, &options)?;
     let mut real = Vec::new();
     for certificate in certified.certificates.iter().filter(|c| c.realness == Realness::Real) {
         real.push(equilibrium(model, u, form, &certificate.solution, certificate.radius)?);

@@ -7,7 +7,7 @@
 //! ```
 //! A spring without free length needs no u. Rest lengths μ are the parameters of the family.
 
-use tg_homotopy::{Grouping, Polynomial, PolynomialSystem, SystemBuilder};
+use tg_homotopy::{Conjugation, Grouping, Polynomial, PolynomialSystem, SystemBuilder};
 use tg_model::{Model, Tensioned};
 
 use crate::coordinates::Coordinates;
@@ -20,6 +20,10 @@ use crate::variable::Kind;
 pub(crate) struct Stationarity<const D: usize> {
     pub(crate) unknowns: Unknowns<D>,
     pub(crate) system: PolynomialSystem,
+    /// What real means: conjugation, with its exchange of unknowns.
+    pub(crate) conjugation: Conjugation,
+    /// The system that conjugation maps to itself to the last bit, for certificates.
+    pub(crate) symmetric: PolynomialSystem,
     /// Inputs that are parameters: rest lengths of cables with a free length, in the order of the u, then loads.
     pub(crate) inputs: Vec<usize>,
     /// Number of cables with a free length.
@@ -79,8 +83,19 @@ impl<const D: usize> Stationarity<D> {
             b.equation(equation);
         }
         let system = b.build()?;
+        let conjugation = Conjugation::exchanging(&system, &unknowns.conjugates, &[])?;
+        let symmetric = system.symmetrized(&conjugation)?;
         let groupings = groupings(&unknowns.blocks, y, springs, multipliers)?;
-        Ok(Self { unknowns, system, inputs, springs, idle: potential.idle, groupings })
+        Ok(Self {
+            unknowns,
+            system,
+            conjugation,
+            symmetric,
+            inputs,
+            springs,
+            idle: potential.idle,
+            groupings,
+        })
     }
 
     /// Cables with a free length, in the order of their u.
