@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::TaskError;
 
 /// Each crate and the workspace crates that it may use, lowest layer first.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("tg-coords", &[]),
     ("tg-sparse", &[]),
     ("tg-model", &["tg-coords", "tg-sparse"]),
@@ -18,6 +18,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("tg-equilibria", &["tg-homotopy", "tg-model", "tg-statics", "tg-tangent"]),
     ("tg-integrate", &["tg-model", "tg-sparse"]),
     ("tg-fixtures", &["tg-coords", "tg-model"]),
+    ("tg-scene", &["tg-coords", "tg-model"]),
     (
         "tg-cases",
         &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-equilibria", "tg-integrate"],
@@ -29,7 +30,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
 ];
 
 /// Crates whose ordinary dependencies must not lead to a crate of this name: faer is most of the build time.
-const WITHOUT_FAER: [&str; 3] = ["tg-coords", "tg-sparse", "tg-model"];
+const WITHOUT_FAER: [&str; 4] = ["tg-coords", "tg-sparse", "tg-model", "tg-scene"];
 
 #[derive(Deserialize)]
 struct Metadata {
