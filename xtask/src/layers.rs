@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::TaskError;
 
 /// Each crate and the workspace crates that it may use, lowest layer first.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 15] = [
     ("tg-coords", &[]),
     ("tg-sparse", &[]),
     ("tg-model", &["tg-coords", "tg-sparse"]),
@@ -19,6 +19,20 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("tg-integrate", &["tg-model", "tg-sparse"]),
     ("tg-fixtures", &["tg-coords", "tg-model"]),
     ("tg-scene", &["tg-coords", "tg-model"]),
+    ("tg-report", &[]),
+    (
+        "tg-cli",
+        &[
+            "tg-equilibria",
+            "tg-integrate",
+            "tg-modal",
+            "tg-model",
+            "tg-report",
+            "tg-scene",
+            "tg-statics",
+            "tg-tangent",
+        ],
+    ),
     (
         "tg-cases",
         &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-equilibria", "tg-integrate"],

@@ -1,0 +1,25 @@
+//! Results of tensegrity mechanics as tables, data and pictures. It knows results only, no mechanics: plain data in, files
+//! out.
+
+mod error;
+mod folder;
+mod frame;
+mod gltf;
+mod outline;
+mod plot;
+mod table;
+mod vector;
+mod view;
+mod vtk;
+
+pub use error::ReportError;
+pub use folder::{
+    Existing, Formats, Kind, Manifest, PART_ROWS, PART_SECONDS, PART_VALUES, Results, ResultsWriter, Scene,
+};
+pub use frame::{CableFrame, Frame, ModeSet, ModeShape, Placement, Shape};
+pub use gltf::{glb, write_glb};
+pub use outline::{CableOutline, MemberKind, MemberOutline, Outline};
+pub use plot::{Axis, Plot, PlotKind, Series};
+pub use table::{Channel, Table};
+pub use view::{VIEW_FRAMES, VIEW_POINTS, View, evenly};
+pub use vtk::write_vtk;

@@ -1,0 +1,10 @@
+//! Reports are read back by other means than they were written.
+
+#![allow(clippy::unwrap_used)] // in helpers too
+
+mod folder;
+mod gltf;
+mod sample;
+mod tables;
+mod view;
+mod vtk;
