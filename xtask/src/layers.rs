@@ -23,6 +23,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     (
         "tg-cli",
         &[
+            "tg-coords",
             "tg-equilibria",
             "tg-integrate",
             "tg-modal",
@@ -30,7 +31,6 @@ const ALLOWED: [(&str, &[&str]); 15] = [
             "tg-report",
             "tg-scene",
             "tg-statics",
-            "tg-tangent",
         ],
     ),
     (

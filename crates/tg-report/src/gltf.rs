@@ -112,7 +112,6 @@ struct Scene {
     nodes: Vec<Value>,
     samplers: Vec<Value>,
     channels: Vec<Value>,
-    times: Option<usize>,
 }
 
 impl Scene {
@@ -124,7 +123,6 @@ impl Scene {
             nodes: Vec::new(),
             samplers: Vec::new(),
             channels: Vec::new(),
-            times: None,
         }
     }
 
@@ -174,7 +172,6 @@ impl Scene {
     fn write(mut self, outline: &Outline, times: &[f32]) -> Result<Vec<u8>, ReportError> {
         if !self.samplers.is_empty() {
             let input = self.buffer.times(times);
-            self.times = Some(input);
             self.samplers.iter_mut().for_each(|s| s["input"] = input.into());
         }
         let up = unit(outline.up).unwrap_or([0.0, 1.0, 0.0]);

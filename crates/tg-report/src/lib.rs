@@ -1,13 +1,17 @@
 //! Results of tensegrity mechanics as tables, data and pictures. It knows results only, no mechanics: plain data in, files
 //! out.
 
+mod canvas;
+mod colour;
 mod error;
 mod folder;
 mod frame;
 mod gltf;
 mod outline;
 mod plot;
+mod svg;
 mod table;
+mod ticks;
 mod vector;
 mod view;
 mod vtk;
@@ -20,6 +24,7 @@ pub use frame::{CableFrame, Frame, ModeSet, ModeShape, Placement, Shape};
 pub use gltf::{glb, write_glb};
 pub use outline::{CableOutline, MemberKind, MemberOutline, Outline};
 pub use plot::{Axis, Plot, PlotKind, Series};
+pub use svg::{Picture, Projection, strip_svg, svg};
 pub use table::{Channel, Table};
 pub use view::{VIEW_FRAMES, VIEW_POINTS, View, evenly};
 pub use vtk::write_vtk;

@@ -1,5 +1,6 @@
 //! Curves over a common abscissa, as data; drawn as SVG or PNG, or shown by the viewer.
 
+mod draw;
 mod standard;
 mod thin;
 

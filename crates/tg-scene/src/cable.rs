@@ -15,6 +15,7 @@ use crate::spanned::Spanned;
 pub struct Cable {
     /// The two places that it joins.
     #[serde(alias = "nodes", alias = "between")]
+    #[schemars(extend("x-aliases" = ["nodes", "between"]))]
     pub ends: Spanned<Vec<PlaceRef>>,
     /// Name of the group that it belongs to: shared properties, and one colour or one variable in analyses.
     pub group: Option<Spanned<String>>,
@@ -22,20 +23,25 @@ pub struct Cable {
     pub law: Option<Law>,
     /// Stiffness κ \[N/m\].
     #[serde(alias = "k")]
+    #[schemars(extend("x-aliases" = ["k"]))]
     pub stiffness: Option<Quantity>,
     /// Axial stiffness EA \[N\] instead: κ = EA / rest length.
     #[serde(alias = "EA")]
+    #[schemars(extend("x-aliases" = ["EA"]))]
     pub axial_stiffness: Option<Quantity>,
     /// Damping η \[N s/m\], 0 if not given.
     #[serde(alias = "c")]
+    #[schemars(extend("x-aliases" = ["c"]))]
     pub damping: Option<Quantity>,
     /// Rest length μ \[m\], constant or reeled.
     #[serde(alias = "rest_length", alias = "free_length", alias = "natural_length")]
+    #[schemars(extend("x-aliases" = ["rest_length", "free_length", "natural_length"]))]
     pub rest: Option<SignalSpec>,
     /// Rest length as a part of the length as built.
     pub rest_ratio: Option<Quantity>,
     /// Tension as built \[N\], positive: the rest length follows.
     #[serde(alias = "pretension")]
+    #[schemars(extend("x-aliases" = ["pretension"]))]
     pub tension: Option<Quantity>,
     /// Force density as built \[N/m\], tension by length: the rest length follows.
     pub force_density: Option<Quantity>,
@@ -49,20 +55,25 @@ pub struct Group {
     pub law: Option<Law>,
     /// Stiffness κ \[N/m\].
     #[serde(alias = "k")]
+    #[schemars(extend("x-aliases" = ["k"]))]
     pub stiffness: Option<Quantity>,
     /// Axial stiffness EA \[N\] instead: κ = EA / rest length.
     #[serde(alias = "EA")]
+    #[schemars(extend("x-aliases" = ["EA"]))]
     pub axial_stiffness: Option<Quantity>,
     /// Damping η \[N s/m\].
     #[serde(alias = "c")]
+    #[schemars(extend("x-aliases" = ["c"]))]
     pub damping: Option<Quantity>,
     /// Rest length μ \[m\], constant or reeled.
     #[serde(alias = "rest_length", alias = "free_length", alias = "natural_length")]
+    #[schemars(extend("x-aliases" = ["rest_length", "free_length", "natural_length"]))]
     pub rest: Option<SignalSpec>,
     /// Rest length as a part of the length as built.
     pub rest_ratio: Option<Quantity>,
     /// Tension as built \[N\], positive: the rest length follows.
     #[serde(alias = "pretension")]
+    #[schemars(extend("x-aliases" = ["pretension"]))]
     pub tension: Option<Quantity>,
     /// Force density as built \[N/m\], tension by length: the rest length follows.
     pub force_density: Option<Quantity>,

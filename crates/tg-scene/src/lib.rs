@@ -46,6 +46,7 @@ mod parts;
 mod place;
 mod quantity;
 mod read;
+mod reference;
 mod run;
 mod scene;
 mod shape;
@@ -64,6 +65,7 @@ pub use parts::{Array, JoiningName, Joint, Motion, Support};
 pub use place::{OnMember, PlaceName, PlaceRef};
 pub use quantity::{Expression, Quantity, Vector};
 pub use read::{Files, Folder, Language, RunSettings, SceneFile, VERSION};
+pub use reference::reference;
 pub use run::{ChannelName, Format, RunSection, Scheme};
 pub use scene::{Parameters, RedundanciesName, Scene};
 pub use shape::{Cylinder, Plate, Shape};
@@ -73,5 +75,7 @@ pub use structure::{Built, MemberPicture, Outline, PictureKind, Structure};
 
 /// The JSON Schema of scene files, for editors.
 pub fn schema() -> schemars::Schema {
-    schemars::schema_for!(Scene)
+    let mut schema = schemars::schema_for!(Scene);
+    reference::add_aliases(&mut schema);
+    schema
 }

@@ -14,9 +14,11 @@ use crate::spanned::Spanned;
 pub struct Load {
     /// The place of a force.
     #[serde(alias = "place")]
+    #[schemars(extend("x-aliases" = ["place"]))]
     pub at: Option<PlaceRef>,
     /// The member of a moment.
     #[serde(alias = "member")]
+    #[schemars(extend("x-aliases" = ["member"]))]
     pub on: Option<Spanned<String>>,
     /// Force \[N\], fixed in space.
     pub force: Option<Vector>,

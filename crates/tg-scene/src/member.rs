@@ -14,6 +14,7 @@ use crate::spanned::{Named, Spanned};
 pub struct Bar {
     /// Its two ends in space.
     #[serde(alias = "nodes", alias = "between")]
+    #[schemars(extend("x-aliases" = ["nodes", "between"]))]
     pub ends: Spanned<Vec<PlaceRef>>,
     /// Mass \[kg\], uniform along the bar.
     pub mass: Option<Quantity>,
@@ -47,6 +48,7 @@ pub struct Body {
     pub density: Option<Quantity>,
     /// Mass centre in the local frame \[m\].
     #[serde(alias = "center", alias = "mass_centre", alias = "com")]
+    #[schemars(extend("x-aliases" = ["center", "mass_centre", "com"]))]
     pub centre: Option<Vector>,
     /// Inertia about the mass centre, along the local axes.
     pub inertia: Option<Inertia>,
@@ -56,10 +58,12 @@ pub struct Body {
     /// Type of its natural coordinates; RUV in the plane and RUVW in space if not given. A joint at a basic point costs no
     /// constraint.
     #[serde(rename = "type", alias = "coordinates")]
+    #[schemars(extend("x-aliases" = ["coordinates"]))]
     pub coord_type: Option<Spanned<CoordTypeName>>,
     /// Its basic points, then its base vectors, as the type has them: names of points or local coordinates \[m\]. The origin and unit
     /// axes if not given and the type has one basic point.
     #[serde(alias = "nodes")]
+    #[schemars(extend("x-aliases" = ["nodes"]))]
     pub basis: Option<Spanned<Vec<PlaceRef>>>,
     /// For pictures: faces by names of points. Without them, the shape or the hull of the points is drawn.
     pub faces: Option<Vec<Vec<Spanned<String>>>>,
@@ -75,6 +79,7 @@ pub struct Body {
 pub struct Particle {
     /// Position in space \[m\].
     #[serde(alias = "position")]
+    #[schemars(extend("x-aliases" = ["position"]))]
     pub at: PlaceRef,
     /// Mass \[kg\].
     pub mass: Quantity,

@@ -22,6 +22,7 @@ macro_rules! with_parts {
             pub points: Named<crate::place::PlaceRef>,
             /// Rigid bars.
             #[serde(default, alias = "struts", alias = "rods")]
+            #[schemars(extend("x-aliases" = ["struts", "rods"]))]
             pub bars: Named<crate::member::Bar>,
             /// Rigid bodies.
             #[serde(default)]
@@ -40,6 +41,7 @@ macro_rules! with_parts {
             pub supports: Named<crate::parts::Support>,
             /// Cables.
             #[serde(default, alias = "strings", alias = "ties", alias = "tendons", alias = "springs")]
+            #[schemars(extend("x-aliases" = ["strings", "ties", "tendons", "springs"]))]
             pub cables: Named<crate::cable::Cable>,
             /// Forces and moments.
             #[serde(default)]
@@ -103,9 +105,11 @@ with_parts! {
         pub axis: Option<Vector>,
         /// Centre of that rotation \[m\], the origin if not given.
         #[serde(alias = "center")]
+        #[schemars(extend("x-aliases" = ["center"]))]
         pub centre: Option<Vector>,
         /// Shift from one copy to the next \[m\].
         #[serde(alias = "shift")]
+        #[schemars(extend("x-aliases" = ["shift"]))]
         pub translate: Option<Vector>,
     }
 }
@@ -116,6 +120,7 @@ with_parts! {
 pub struct Joint {
     /// The points that are one.
     #[serde(alias = "points")]
+    #[schemars(extend("x-aliases" = ["points"]))]
     pub places: Spanned<Vec<PlaceRef>>,
     /// How it is modelled; the motion is the same. By sharing where all points are basic points or anchors, else by
     /// constraints.
@@ -138,6 +143,7 @@ pub enum JoiningName {
 pub struct Support {
     /// The place.
     #[serde(alias = "place")]
+    #[schemars(extend("x-aliases" = ["place"]))]
     pub at: PlaceRef,
     /// The components, as `"xy"` or `"z"`; all if not given.
     pub axes: Option<Spanned<String>>,

@@ -15,6 +15,11 @@ use crate::{json_text, toml_text, values};
 /// Version of the format that this crate reads.
 pub const VERSION: u32 = 1;
 
+/// Spectral radius of generalised-α at infinity that a scene need not say.
+const SPECTRAL_RADIUS: f64 = 0.7;
+/// Pictures per second that a scene need not say.
+const FRAME_RATE: f64 = 50.0;
+
 /// The language of a scene's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Language {
@@ -76,6 +81,23 @@ pub struct RunSettings {
     pub channels: Vec<ChannelName>,
     /// Further forms of the trajectory.
     pub formats: Vec<RunFormat>,
+}
+
+impl RunSettings {
+    /// The settings of a scene that says nothing about its run, without a step.
+    pub fn new(duration: f64) -> Self {
+        Self {
+            duration,
+            step: None,
+            accuracy: None,
+            scheme: Scheme::default(),
+            spectral_radius: SPECTRAL_RADIUS,
+            every: None,
+            frame_rate: FRAME_RATE,
+            channels: vec![ChannelName::Energies, ChannelName::Lengths, ChannelName::Tensions],
+            formats: Vec::new(),
+        }
+    }
 }
 
 impl SceneFile {
@@ -179,24 +201,26 @@ fn run_settings(run: &RunSection, variables: &Variables) -> Result<RunSettings, 
             .at(&run.duration.span)
             .help("give step [s] or accuracy [m]"));
     }
-    let spectral_radius = run.spectral_radius.as_ref().map_or(Ok(0.7), |r| variables.number(r))?;
+    let spectral_radius =
+        run.spectral_radius.as_ref().map_or(Ok(SPECTRAL_RADIUS), |r| variables.number(r))?;
     if let (Some(given), false) = (&run.spectral_radius, (0.0..=1.0).contains(&spectral_radius)) {
         return Err(ReadError::new("the spectral radius lies between 0 and 1").at(&given.span));
     }
-    let default = || vec![ChannelName::Energies, ChannelName::Lengths, ChannelName::Tensions];
-    let mut channels = run.channels.clone().unwrap_or_else(default);
-    if !run.points.is_empty() && !channels.contains(&ChannelName::Points) {
-        channels.push(ChannelName::Points);
+    let mut settings = RunSettings::new(positive(&run.duration)?);
+    if let Some(channels) = &run.channels {
+        settings.channels.clone_from(channels);
+    }
+    if !run.points.is_empty() && !settings.channels.contains(&ChannelName::Points) {
+        settings.channels.push(ChannelName::Points);
     }
     Ok(RunSettings {
-        duration: positive(&run.duration)?,
         step,
         accuracy,
         scheme: run.scheme.unwrap_or_default(),
         spectral_radius,
         every: optional(&run.every)?,
-        frame_rate: optional(&run.frame_rate)?.unwrap_or(50.0),
-        channels,
+        frame_rate: optional(&run.frame_rate)?.unwrap_or(FRAME_RATE),
         formats: run.formats.clone(),
+        ..settings
     })
 }

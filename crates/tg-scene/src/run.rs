@@ -12,6 +12,7 @@ use crate::spanned::Spanned;
 pub struct RunSection {
     /// Simulated time \[s\].
     #[serde(alias = "end")]
+    #[schemars(extend("x-aliases" = ["end"]))]
     pub duration: Quantity,
     /// Time step \[s\]. Either this or `accuracy`.
     pub step: Option<Quantity>,

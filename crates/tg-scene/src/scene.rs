@@ -27,6 +27,7 @@ with_parts! {
         pub description: Option<String>,
         /// 2 for the plane (x to the right, y up), 3 for space (z up).
         #[serde(alias = "space")]
+        #[schemars(extend("x-aliases" = ["space"]))]
         pub dimension: Spanned<u32>,
         /// Named numbers, which all quantities may use.
         #[serde(default)]

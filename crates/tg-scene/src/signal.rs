@@ -83,11 +83,13 @@ pub struct Samples {
 pub struct CsvFile {
     /// The file, from the scene's folder.
     #[serde(alias = "path", alias = "csv")]
+    #[schemars(extend("x-aliases" = ["path", "csv"]))]
     pub file: Spanned<String>,
     /// Name of the column of times \[s\], `t` if not given.
     pub time: Option<Spanned<String>>,
     /// Name of the column of values.
     #[serde(alias = "column")]
+    #[schemars(extend("x-aliases" = ["column"]))]
     pub value: Spanned<String>,
     /// Factor of the values, 1 if not given: 9.81 makes m/s² of g, 0.001 makes metres of millimetres.
     pub scale: Option<Quantity>,

@@ -10,6 +10,7 @@ mod model;
 mod moments;
 mod projector;
 mod projector_position;
+mod reactions;
 mod redundancy;
 mod resultant;
 mod signal;

@@ -1,6 +1,6 @@
 //! Reports are read back by other means than they were written.
 
-#![allow(clippy::unwrap_used)] // in helpers too
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod folder;
 mod gltf;

@@ -1,0 +1,62 @@
+//! Round numbers on axes.
+
+/// About `wanted` round numbers within a range, ascending, with their texts.
+pub(crate) fn ticks(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
+    let span = high - low;
+    if !(span > 0.0 && span.is_finite()) {
+        return Vec::new();
+    }
+    let step = round_step(span / wanted.max(1) as f64);
+    let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+    let count = (last - first).clamp(0.0, 1000.0) as usize;
+    let values: Vec<f64> = (0..=count).map(|k| (first + k as f64) * step).collect();
+    let largest = values.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    values.into_iter().map(|x| (x, text(x, step, largest))).collect()
+}
+
+/// 1, 2 or 5 times a power of ten, at least `raw`.
+pub(crate) fn round_step(raw: f64) -> f64 {
+    let power = 10_f64.powf(raw.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|s| s * power >= raw * (1.0 - 1e-9));
+    step.unwrap_or(10.0) * power
+}
+
+/// A number with the digits that its step needs; powers of ten where all are very large or very small.
+fn text(x: f64, step: f64, largest: f64) -> String {
+    let x = if x.abs() < 1e-9 * step { 0.0 } else { x };
+    let digits = |step: f64| (-step.log10() - 1e-9).ceil().max(0.0) as usize;
+    if x == 0.0 {
+        "0".into()
+    } else if largest >= 1e5 || largest < 1e-3 {
+        let exponent = x.abs().log10().floor();
+        let power = 10_f64.powf(exponent);
+        format!("{}e{exponent}", minus(format!("{:.*}", digits(step / power).min(6), x / power)))
+            .replace("e-", "e\u{2212}")
+    } else {
+        minus(format!("{:.*}", digits(step), x))
+    }
+}
+
+/// A true minus sign.
+fn minus(text: String) -> String {
+    text.replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ticks;
+
+    fn texts(low: f64, high: f64) -> Vec<String> {
+        ticks(low, high, 5).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn are_round() {
+        assert_eq!(texts(0.0, 10.0), ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(texts(-0.3, 0.31), ["\u{2212}0.2", "0", "0.2"]);
+        assert_eq!(texts(0.0, 3e-9), ["0", "1e\u{2212}9", "2e\u{2212}9", "3e\u{2212}9"]);
+        assert_eq!(texts(2e5, 3e5), ["2.0e5", "2.2e5", "2.4e5", "2.6e5", "2.8e5", "3.0e5"]);
+        assert_eq!(texts(1.0, 1.001), ["1.0000", "1.0002", "1.0004", "1.0006", "1.0008", "1.0010"]);
+        assert!(texts(1.0, 1.0).is_empty() && texts(0.0, f64::NAN).is_empty());
+    }
+}
