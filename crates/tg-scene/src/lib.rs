@@ -37,6 +37,7 @@ mod deserialize;
 mod dimension;
 mod error;
 mod expression;
+mod import;
 mod json_text;
 mod load;
 mod member;
@@ -59,6 +60,7 @@ mod values;
 
 pub use cable::{Cable, Group, Law};
 pub use error::{Mistake, SceneError};
+pub use import::{ImportError, ImportOptions, Imported, import, import_with};
 pub use load::{Load, MomentAxesName};
 pub use member::{AxisAngle, Bar, Body, CoordTypeName, Inertia, Particle, Rotation};
 pub use parts::{Array, JoiningName, Joint, Motion, Support};
