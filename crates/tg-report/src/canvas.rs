@@ -2,6 +2,7 @@
 
 mod font;
 mod pixels;
+mod png;
 mod vector;
 
 use crate::colour::Colour;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::ReportError;
 use crate::outline::Outline;
+use crate::vector::{add, cross, scale};
 
 /// Members and cables at one time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -133,13 +134,9 @@ impl Placement {
     /// Where a point of the member's frame is.
     pub fn apply(&self, x: [f64; 3]) -> [f64; 3] {
         let [qx, qy, qz, w] = self.rotation;
-        let cross = |a: [f64; 3], b: [f64; 3]| {
-            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-        };
         let q = [qx, qy, qz];
-        let t = cross(q, x).map(|c| 2.0 * c);
-        let u = cross(q, t);
-        std::array::from_fn(|k| self.position[k] + x[k] + w * t[k] + u[k])
+        let t = scale(2.0, cross(q, x));
+        add(add(self.position, x), add(scale(w, t), cross(q, t)))
     }
 }
 

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use crate::colour::{Colour, SERIES};
 use crate::error::ReportError;
 use crate::frame::Frame;
 use crate::outline::{MemberKind, Outline};
@@ -44,7 +45,7 @@ pub fn glb(outline: &Outline, frames: &[Frame]) -> Result<Vec<u8>, ReportError> 
     let times = motion::times(&frames);
     for (k, member) in outline.members.iter().enumerate() {
         let track = Track::of_member(&frames, k);
-        let mesh = scene.mesh(&member.name, Mesh::of_member(member, scene.sizes), material(member.kind));
+        let mesh = scene.mesh(&member.name, &Mesh::of_member(member, scene.sizes), material(member.kind));
         scene.node(&member.name, mesh, &track);
     }
     let groups = groups(outline);
@@ -54,32 +55,18 @@ pub fn glb(outline: &Outline, frames: &[Frame]) -> Result<Vec<u8>, ReportError> 
         let group = groups.iter().position(|g| *g == cable.group.as_deref()).unwrap_or(0);
         let track = Track::of_cable(&frames, k, scene.sizes.cable);
         if rods[group].is_none() {
-            rods[group] = scene.mesh("cable", rod.clone(), CABLES + group % CABLE_COLOURS.len());
+            rods[group] = scene.mesh("cable", &rod, ("cable", SERIES[group % SERIES.len()]));
         }
         scene.node(&cable.name, rods[group], &track);
     }
     scene.write(outline, &times)
 }
 
-/// Materials of bars, bodies, particles, then of groups of cables: name and sRGB colour, told apart by all eyes.
-const COLOURS: [(&str, [u8; 3]); 3] =
-    [("bar", [96, 104, 120]), ("body", [222, 178, 120]), ("particle", [70, 70, 78])];
-const CABLE_COLOURS: [[u8; 3]; 7] = [
-    [0, 114, 178],
-    [213, 94, 0],
-    [0, 158, 115],
-    [204, 121, 167],
-    [86, 180, 233],
-    [230, 159, 0],
-    [60, 60, 60],
-];
-const CABLES: usize = COLOURS.len();
-
-fn material(kind: MemberKind) -> usize {
+fn material(kind: MemberKind) -> (&'static str, Colour) {
     match kind {
-        MemberKind::Bar => 0,
-        MemberKind::Body => 1,
-        MemberKind::Particle => 2,
+        MemberKind::Bar => ("bar", [96, 104, 120]),
+        MemberKind::Body => ("body", [222, 178, 120]),
+        MemberKind::Particle => ("particle", [70, 70, 78]),
     }
 }
 
@@ -109,6 +96,8 @@ struct Scene {
     sizes: Sizes,
     buffer: Buffer,
     meshes: Vec<Value>,
+    /// Names and sRGB colours.
+    materials: Vec<(&'static str, Colour)>,
     nodes: Vec<Value>,
     samplers: Vec<Value>,
     channels: Vec<Value>,
@@ -120,6 +109,7 @@ impl Scene {
             sizes: Sizes::of(extent),
             buffer: Buffer::default(),
             meshes: Vec::new(),
+            materials: Vec::new(),
             nodes: Vec::new(),
             samplers: Vec::new(),
             channels: Vec::new(),
@@ -127,10 +117,15 @@ impl Scene {
     }
 
     /// Adds a mesh; none where it has no triangle.
-    fn mesh(&mut self, name: &str, mesh: Mesh, material: usize) -> Option<usize> {
+    fn mesh(&mut self, name: &str, mesh: &Mesh, material: (&'static str, Colour)) -> Option<usize> {
         if mesh.triangles.is_empty() {
             return None;
         }
+        let known = self.materials.iter().position(|m| *m == material);
+        let material = known.unwrap_or_else(|| {
+            self.materials.push(material);
+            self.materials.len() - 1
+        });
         let attributes = json!({
             "POSITION": self.buffer.positions(&mesh.positions),
             "NORMAL": self.buffer.directions(&mesh.normals),
@@ -191,7 +186,7 @@ impl Scene {
         // Lists must not be empty.
         if !self.meshes.is_empty() {
             file["meshes"] = self.meshes.into();
-            file["materials"] = materials().into();
+            file["materials"] = self.materials.into_iter().map(material_json).collect();
         }
         if !self.channels.is_empty() {
             file["animations"] =
@@ -201,18 +196,13 @@ impl Scene {
     }
 }
 
-fn materials() -> Vec<Value> {
-    let cables = CABLE_COLOURS.iter().map(|&colour| ("cable", colour));
-    let all = COLOURS.into_iter().chain(cables);
-    all.map(|(name, colour)| {
-        let [r, g, b] = colour.map(linear);
-        json!({
-            "name": name,
-            "doubleSided": name == "body",
-            "pbrMetallicRoughness": {"baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.7},
-        })
+fn material_json((name, colour): (&str, Colour)) -> Value {
+    let [r, g, b] = colour.map(linear);
+    json!({
+        "name": name,
+        "doubleSided": name == "body",
+        "pbrMetallicRoughness": {"baseColorFactor": [r, g, b, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.7},
     })
-    .collect()
 }
 
 /// The format wants linear light.

@@ -27,7 +27,7 @@ fn text(x: f64, step: f64, largest: f64) -> String {
     let digits = |step: f64| (-step.log10() - 1e-9).ceil().max(0.0) as usize;
     if x == 0.0 {
         "0".into()
-    } else if largest >= 1e5 || largest < 1e-3 {
+    } else if !(1e-3..1e5).contains(&largest) {
         let exponent = x.abs().log10().floor();
         let power = 10_f64.powf(exponent);
         format!("{}e{exponent}", minus(format!("{:.*}", digits(step / power).min(6), x / power)))

@@ -135,18 +135,20 @@ fn poly_data(outline: &Outline, frame: &Frame) -> String {
     .concat()
 }
 
-/// An inline array: base64 of its length in bytes, then base64 of its content.
+/// An inline array: base64 of its length in bytes and its content, as one stream.
 fn array<const N: usize>(
     kind: &str,
     name: &str,
     components: usize,
     values: impl Iterator<Item = [u8; N]>,
 ) -> String {
-    let bytes: Vec<u8> = values.flatten().collect();
-    let length = STANDARD.encode((bytes.len() as u64).to_le_bytes());
+    let mut bytes = vec![0; 8];
+    bytes.extend(values.flatten());
+    let length = bytes.len() as u64 - 8;
+    bytes[..8].copy_from_slice(&length.to_le_bytes());
     let content = STANDARD.encode(bytes);
     format!(
         "        <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-         format=\"binary\">{length}{content}</DataArray>\n"
+         format=\"binary\">{content}</DataArray>\n"
     )
 }

@@ -2,7 +2,7 @@
 
 use ab_glyph_rasterizer::{Rasterizer, point};
 
-use super::{Anchor, Canvas, INK, Point, Stroke, Text, font};
+use super::{Anchor, Canvas, INK, Point, Stroke, Text, font, png};
 use crate::colour::Colour;
 use crate::error::ReportError;
 
@@ -29,15 +29,7 @@ impl Pixels {
 
     /// The content of a PNG file.
     pub(crate) fn finish(self) -> Result<Vec<u8>, ReportError> {
-        let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&self.rgb));
-        let failed =
-            |e: png::EncodingError| ReportError::Drawing { what: "PNG".into(), reason: e.to_string() };
-        written.map_err(failed)?;
-        Ok(bytes)
+        png::encode(self.width, self.height, &self.rgb)
     }
 
     /// Fills what some outlines enclose: all of them run one way round, so that where they overlap counts once.

@@ -94,7 +94,7 @@ fn an_animation_follows_the_specification() {
         assert_eq!(positions.len(), normals.len());
         assert!(normals.iter().all(|n| (length(n) - 1.0).abs() < 1e-6));
         let corners = file.rows(&primitive["indices"]);
-        assert!(corners.len() % 3 == 0 && corners.iter().all(|i| (i[0] as usize) < positions.len()));
+        assert!(corners.len().is_multiple_of(3) && corners.iter().all(|i| (i[0] as usize) < positions.len()));
         outwards(&positions, &normals, &corners);
     }
     let animation = &file.list("animations")[0];

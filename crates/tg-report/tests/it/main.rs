@@ -4,6 +4,7 @@
 
 mod folder;
 mod gltf;
+mod pictures;
 mod sample;
 mod tables;
 mod view;

@@ -13,12 +13,11 @@ fn find<'a>(node: Node<'a, 'a>, key: &str, value: &str) -> Node<'a, 'a> {
 }
 
 fn bytes(array: Node) -> Vec<u8> {
-    // VTK encodes the length and the content one after the other.
-    let text = array.text().unwrap();
-    let length = STANDARD.decode(&text[..12]).unwrap();
-    let content = STANDARD.decode(&text[12..]).unwrap();
-    assert_eq!(u64::from_le_bytes(length.try_into().unwrap()), content.len() as u64);
-    content
+    // VTK reads the length and the content as one stream.
+    let all = STANDARD.decode(array.text().unwrap()).unwrap();
+    let (length, content) = all.split_first_chunk::<8>().unwrap();
+    assert_eq!(u64::from_le_bytes(*length), content.len() as u64);
+    content.to_vec()
 }
 
 fn doubles(array: Node) -> Vec<f64> {

@@ -31,7 +31,8 @@ pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, b
         if k % every == 0 {
             let name = fitted(&series.name, TICK, NAMES);
             canvas.text(Text::new([left - 8.0, y + 0.36 * TICK], TICK, Anchor::End, &name));
-            let share: f64 = intervals.iter().map(|[a, b]| b - a).sum::<f64>() / (frame.x[1] - frame.x[0]);
+            let total = intervals.iter().fold(0.0, |sum, [from, to]| sum + (to - from));
+            let share = total / (frame.x[1] - frame.x[0]);
             let share = format!("{:.1} %", 100.0 * share);
             canvas.text(Text::new([right + SHARES - 2.0, y + 0.36 * TICK], TICK, Anchor::End, &share));
         }

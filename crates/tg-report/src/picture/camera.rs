@@ -2,7 +2,7 @@
 
 use crate::frame::Frame;
 use crate::outline::Outline;
-use crate::svg::Projection;
+use crate::picture::Projection;
 use crate::vector::{Vec3, add, bounds, cross, dot, scale, sub, unit};
 
 /// A parallel projection.
@@ -15,8 +15,8 @@ pub(super) struct Camera {
 
 /// The part of the paper that is used \[m\].
 pub(super) struct Extent {
-    least: [f64; 2],
-    greatest: [f64; 2],
+    pub(super) least: [f64; 2],
+    pub(super) greatest: [f64; 2],
 }
 
 impl Camera {
@@ -55,15 +55,5 @@ impl Camera {
         points().find(|p| p.iter().all(|x| x.is_finite()))?;
         let [least, greatest] = bounds(points());
         Some(Extent { least: [least[0], least[1]], greatest: [greatest[0], greatest[1]] })
-    }
-}
-
-impl Extent {
-    pub(super) fn size(&self) -> [f64; 2] {
-        [self.greatest[0] - self.least[0], self.greatest[1] - self.least[1]]
-    }
-
-    pub(super) fn centre(&self) -> [f64; 2] {
-        [0.5 * (self.greatest[0] + self.least[0]), 0.5 * (self.greatest[1] + self.least[1])]
     }
 }
