@@ -3,6 +3,7 @@
 mod check;
 mod equilibria;
 mod generate;
+mod import;
 mod modes;
 mod run;
 mod show;
@@ -12,6 +13,7 @@ mod sweep;
 pub(crate) use check::check;
 pub(crate) use equilibria::equilibria;
 pub(crate) use generate::{completions, man, schema};
+pub(crate) use import::import;
 pub(crate) use modes::modes;
 pub(crate) use run::run;
 pub(crate) use show::{export, plot, view};

@@ -35,7 +35,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::View(given) => command::view(given),
         Command::Plot(given) => command::plot(given),
         Command::Export(given) => command::export(given),
-        Command::Import(_) => Err(Failure::Usage("not yet".into())),
+        Command::Import(given) => command::import(given),
         Command::Schema(given) => command::schema(given),
         Command::Completions(given) => Ok(command::completions(given)),
         Command::Man(given) => command::man(given),

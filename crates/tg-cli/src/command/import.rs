@@ -1,0 +1,26 @@
+//! `tg import`: files of other programs into scenes.
+
+use serde_json::json;
+use tg_scene::{ImportOptions, import_with};
+
+use crate::answer::{Answer, Failure};
+use crate::args::Import;
+use crate::results::write_file;
+
+pub(crate) fn import(arguments: &Import) -> Result<Answer, Failure> {
+    let options = ImportOptions {
+        length_scale: arguments.length_scale,
+        mass_scale: arguments.mass_scale,
+        force_scale: arguments.force_scale,
+    };
+    let imported = import_with(&arguments.path, &options).map_err(|error| Failure::Usage(error.to_string()))?;
+    let text = match &arguments.output {
+        Some(path) => {
+            write_file(path, imported.toml.as_bytes())?;
+            format!("{}: imported; go on with: tg statics --relax {}\n", path.display(), path.display())
+        }
+        None => imported.toml.clone(),
+    };
+    let document = json!({ "scene": imported.toml });
+    Ok(Answer::new(document, text).warn(imported.warnings))
+}
