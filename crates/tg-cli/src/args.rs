@@ -291,7 +291,7 @@ pub(crate) enum PlotWhat {
     Reactions,
     /// Frequencies, or energies of equilibria, against the parameter of a sweep.
     Sweep,
-    /// The structure at six times, or its equilibria, side by side; SVG only.
+    /// The structure at six times, or its equilibria, side by side.
     Snapshots,
 }
 

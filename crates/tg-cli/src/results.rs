@@ -17,14 +17,17 @@ pub(crate) fn manifest(kind: Kind, loaded: &Loaded, outline: Outline, settings: 
     manifest.scene = Some(tg_report::Scene { name: loaded.file.name.clone(), hash: hash(loaded) });
     manifest.program = format!("tg {}", env!("CARGO_PKG_VERSION"));
     manifest.started = Some(humantime::format_rfc3339_seconds(SystemTime::now()).to_string());
-    let parameters: serde_json::Map<_, _> =
-        loaded.set.iter().map(|(name, value)| (name.clone(), json!(value))).collect();
     manifest.settings = settings;
-    if let (Value::Object(map), false) = (&mut manifest.settings, parameters.is_empty()) {
-        map.insert("set".into(), Value::Object(parameters));
+    if let Value::Object(map) = &mut manifest.settings {
+        map.insert("set".into(), set(loaded));
     }
     manifest.outline = Some(outline);
     manifest
+}
+
+/// Parameters that the command line has set.
+pub(crate) fn set(loaded: &Loaded) -> Value {
+    Value::Object(loaded.set.iter().map(|(name, value)| (name.clone(), json!(value))).collect())
 }
 
 /// SHA-256 of the scene's text, in hexadecimal digits.

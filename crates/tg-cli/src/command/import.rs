@@ -13,7 +13,8 @@ pub(crate) fn import(arguments: &Import) -> Result<Answer, Failure> {
         mass_scale: arguments.mass_scale,
         force_scale: arguments.force_scale,
     };
-    let imported = import_with(&arguments.path, &options).map_err(|error| Failure::Usage(error.to_string()))?;
+    let imported =
+        import_with(&arguments.path, &options).map_err(|error| Failure::Usage(error.to_string()))?;
     let text = match &arguments.output {
         Some(path) => {
             write_file(path, imported.toml.as_bytes())?;

@@ -19,7 +19,7 @@ use crate::args::Run;
 use crate::loading::{Loaded, remarks, stem};
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, watch_for_interrupts};
-use crate::results::{hash, manifest, write_view};
+use crate::results::{hash, manifest, set, write_view};
 use channels::Channels;
 use recording::Recording;
 
@@ -170,9 +170,12 @@ fn describe<const D: usize>(
 fn checkpoint(loaded: &Loaded, folder: &Path) -> Result<(State, f64), Failure> {
     let results = Results::open(folder)?;
     let earlier = results.manifest.scene.as_ref().map(|scene| scene.hash.as_str());
-    if earlier != Some(hash(loaded).as_str()) {
-        let message =
-            format!("{}: these results are of another scene, or it has changed since", folder.display());
+    let earlier_set = results.manifest.settings.get("set").unwrap_or(&Value::Null);
+    if earlier != Some(hash(loaded).as_str()) || *earlier_set != set(loaded) {
+        let message = format!(
+            "{}: these results are of another scene or other parameters, or it has changed since",
+            folder.display()
+        );
         return Err(Failure::Usage(message));
     }
     let checkpoint: Option<recording::Checkpoint> = results.checkpoint()?;

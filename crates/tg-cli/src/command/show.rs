@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
-use tg_report::{Picture, Plot, Projection, Results, Shape, View, evenly, strip_svg, write_glb, write_vtk};
+use tg_report::{
+    Picture, Plot, Projection, Results, Shape, View, evenly, strip_png, strip_svg, write_glb, write_vtk,
+};
 
 use super::with_structure;
 use crate::answer::{Answer, Failure};
@@ -48,14 +50,11 @@ pub(crate) fn plot(arguments: &args::Plot) -> Result<Answer, Failure> {
     let file = arguments.output.clone().unwrap_or_else(|| arguments.result.join(format!("{name}.svg")));
     let png = match file.extension().and_then(|extension| extension.to_str()) {
         Some("svg") => false,
-        Some("png") if what != PlotWhat::Snapshots => true,
-        _ => {
-            let forms = if what == PlotWhat::Snapshots { ".svg" } else { ".svg or .png" };
-            return Err(Failure::Usage(format!("{}: a picture of {name} is a {forms} file", file.display())));
-        }
+        Some("png") => true,
+        _ => return Err(Failure::Usage(format!("{}: a picture is a .svg or .png file", file.display()))),
     };
     if what == PlotWhat::Snapshots {
-        write_file(&file, snapshots(&results)?.as_bytes())?;
+        write_file(&file, &snapshots(&results, png)?)?;
         return Ok(written(&file));
     }
     let plot = curves(&results, what)?.ok_or_else(|| {
@@ -75,7 +74,7 @@ fn name(what: PlotWhat) -> &'static str {
         PlotWhat::Tensions => "tensions",
         PlotWhat::Lengths => "lengths",
         PlotWhat::Energies => "energies",
-        PlotWhat::EnergyDrift => "energy drift",
+        PlotWhat::EnergyDrift => "energy-drift",
         PlotWhat::Slack => "slack",
         PlotWhat::Points => "points",
         PlotWhat::Reactions => "reactions",
@@ -99,7 +98,7 @@ fn curves(results: &Results, what: PlotWhat) -> Result<Option<Plot>, Failure> {
     Ok(Plot::of_group(&results.table()?, group))
 }
 
-fn snapshots(results: &Results) -> Result<String, Failure> {
+fn snapshots(results: &Results, png: bool) -> Result<Vec<u8>, Failure> {
     let nothing = || Failure::Usage("these results hold no pictures of the structure".into());
     let outline = results.manifest.outline.as_ref().ok_or_else(nothing)?;
     let mut frames = results.frames()?;
@@ -114,7 +113,11 @@ fn snapshots(results: &Results) -> Result<String, Failure> {
         title: results.manifest.title.clone(),
         ..Picture::default()
     };
-    Ok(strip_svg(outline, &frames, &picture)?)
+    Ok(if png {
+        strip_png(outline, &frames, &picture, FINENESS)?
+    } else {
+        strip_svg(outline, &frames, &picture)?.into_bytes()
+    })
 }
 
 pub(crate) fn export(arguments: &args::Export) -> Result<Answer, Failure> {

@@ -133,6 +133,14 @@ fn inverse<const D: usize>(
             found.pushing.iter().map(|&cable| Tensioned::cable_name(model, cable).to_string()).collect();
         *text += &format!("cables that would have to push: {}; ask for --least-tension\n", names.join(", "));
     }
+    let uncut: Vec<&str> =
+        rows.iter().filter(|row| row.rest_length <= 0.0).map(|row| row.cable.as_str()).collect();
+    if !uncut.is_empty() {
+        *text += &format!(
+            "no cable is that short: {}; they need a greater stiffness, or a bound by --greatest-tension\n",
+            uncut.join(", ")
+        );
+    }
     document["cutting_list"] = rows
         .iter()
         .map(|row| {
@@ -225,16 +233,19 @@ fn verdict<const D: usize>(
     document: &mut Value,
     text: &mut String,
 ) -> Result<bool, Failure> {
-    let found = stability(&structure.model, at, 1).map_err(Failure::analysis)?;
+    // One more than a free structure has rigid motions.
+    let found = stability(&structure.model, at, 7).map_err(Failure::analysis)?;
     let word = match found.verdict {
         Verdict::Stable => "stable",
         Verdict::Neutral => "neutral",
         Verdict::Unstable => "unstable",
     };
-    let lowest = found.lowest.first().map(|pair| pair.value);
+    let counts = |value: &f64| value.abs() > found.zero_limit;
+    let lowest = found.lowest.iter().map(|pair| pair.value).find(counts);
     *text += &format!("{word}: {} negative, {} zero", found.counts.negative, found.counts.zero);
     *text += &format!(" and {} positive eigenvalues of the stiffness", found.counts.positive);
-    *text += &lowest.map_or_else(|| "\n".into(), |lowest| format!(", the lowest {lowest:.6e} N/m\n"));
+    *text += &lowest
+        .map_or_else(|| "\n".into(), |lowest| format!(", the lowest but for zeros {lowest:.6e} N/m\n"));
     document["stability"] = json!({
         "verdict": word,
         "negative": found.counts.negative,

@@ -62,7 +62,7 @@ pub(super) struct Recording<'p, 's, const D: usize> {
     step: f64,
     /// State times up to this one are in the folder already.
     resumed: Option<f64>,
-    last_checkpoint: Instant,
+    last_checkpoint: Option<Instant>,
     progress: ProgressBar,
     duration: f64,
     failure: Option<Failure>,
@@ -85,7 +85,7 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
             frames: Due::new((1.0 / settings.frame_rate).max(step), step, t),
             step,
             resumed: (t > 0.0).then_some(t),
-            last_checkpoint: Instant::now(),
+            last_checkpoint: None,
             progress: bar(1000, "{wide_bar} {percent}% of the motion, {eta} left"),
             duration: settings.duration,
             failure: None,
@@ -103,14 +103,14 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
         if self.frames.is(state.t) {
             self.writer.frame(&self.painter.frame_at(state)?)?;
         }
-        if self.last_checkpoint.elapsed() >= BETWEEN_CHECKPOINTS {
+        if self.last_checkpoint.is_none_or(|last| last.elapsed() >= BETWEEN_CHECKPOINTS) {
             self.checkpoint(state)?;
         }
         Ok(())
     }
 
     fn checkpoint(&mut self, state: &State) -> Result<(), Failure> {
-        self.last_checkpoint = Instant::now();
+        self.last_checkpoint = Some(Instant::now());
         self.writer.checkpoint(&Checkpoint { step: self.step, state: state.clone() })?;
         Ok(())
     }
