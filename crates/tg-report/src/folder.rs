@@ -14,6 +14,8 @@
 //! to the journal in one write before [`ResultsWriter::row`] returns: a killed program loses no row, and where the power
 //! fails what the operating system had not yet written is lost, at most the open part. A part is renamed into place after
 //! it is complete, then the journal is emptied; the journal says which part it belongs to, so that no row counts twice.
+//! [`Results::table`] reads parts and journal; for programs that know only the parts, [`Results::recover`] makes a part of
+//! what a killed program left.
 
 mod document;
 mod files;

@@ -56,7 +56,8 @@
 //! | plots: SVG, PNG | [`Plot`] |
 //! | animations | [`write_glb`], [`write_vtk`] |
 //!
-//! The same input gives the same bytes. Texts in PNG files are set in DejaVu Sans (its licence is in the crate `dejavu`).
+//! The same input gives the same bytes. Texts in PNG files are set in DejaVu Sans, which programs with this crate contain:
+//! `LICENSE-DejaVu` goes with them.
 
 mod canvas;
 mod colour;

@@ -41,22 +41,3 @@ fn text(x: f64, step: f64, largest: f64) -> String {
 fn minus(text: String) -> String {
     text.replace('-', "\u{2212}")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::ticks;
-
-    fn texts(low: f64, high: f64) -> Vec<String> {
-        ticks(low, high, 5).into_iter().map(|(_, text)| text).collect()
-    }
-
-    #[test]
-    fn are_round() {
-        assert_eq!(texts(0.0, 10.0), ["0", "2", "4", "6", "8", "10"]);
-        assert_eq!(texts(-0.3, 0.31), ["\u{2212}0.2", "0", "0.2"]);
-        assert_eq!(texts(0.0, 3e-9), ["0", "1e\u{2212}9", "2e\u{2212}9", "3e\u{2212}9"]);
-        assert_eq!(texts(2e5, 3e5), ["2.0e5", "2.2e5", "2.4e5", "2.6e5", "2.8e5", "3.0e5"]);
-        assert_eq!(texts(1.0, 1.001), ["1.0000", "1.0002", "1.0004", "1.0006", "1.0008", "1.0010"]);
-        assert!(texts(1.0, 1.0).is_empty() && texts(0.0, f64::NAN).is_empty());
-    }
-}

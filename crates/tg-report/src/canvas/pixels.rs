@@ -22,6 +22,7 @@ pub(crate) struct Pixels {
 impl Pixels {
     /// A picture of this size in units of length, with `scale` pixels for each.
     pub(crate) fn new(size: Point, scale: f64) -> Self {
+        let scale = if scale.is_finite() { scale.clamp(0.01, 100.0) } else { 1.0 };
         let [width, height] = size.map(|x| (x * scale).round().clamp(1.0, 16_384.0) as usize);
         let (rgb, raster) = (vec![255; 3 * width * height], Rasterizer::new(1, 1));
         Self { width, height, scale, rgb, raster }

@@ -34,7 +34,9 @@ impl Journal {
     /// Appends a row, in one write.
     pub(crate) fn row(&mut self, row: &[f64]) -> Result<(), ReportError> {
         self.bytes.clear();
-        self.bytes.extend(row.iter().flat_map(|x| x.to_le_bytes()));
+        for x in row {
+            self.bytes.extend_from_slice(&x.to_le_bytes());
+        }
         self.file.write_all(&self.bytes).map_err(ReportError::io("write", &self.path))
     }
 }

@@ -58,6 +58,13 @@ pub struct Manifest {
     pub outline: Option<Outline>,
 }
 
+/// What tells whether a file is a manifest at all.
+#[derive(Deserialize)]
+struct Head {
+    format: Option<String>,
+    version: Option<u32>,
+}
+
 /// What was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -113,16 +120,15 @@ impl Manifest {
         let path = Self::path(folder);
         let refuse = |reason: String| ReportError::NotResults { path: folder.to_owned(), reason };
         let bytes = std::fs::read(&path).map_err(|e| refuse(format!("run.json: {e}")))?;
-        let value: Value = serde_json::from_slice(&bytes).map_err(|e| refuse(format!("run.json: {e}")))?;
-        if value.get("format").and_then(Value::as_str) != Some(FORMAT) {
+        let head: Head = serde_json::from_slice(&bytes).map_err(|e| refuse(format!("run.json: {e}")))?;
+        if head.format.as_deref() != Some(FORMAT) {
             return Err(refuse(format!("run.json does not say \"format\": \"{FORMAT}\"")));
         }
-        let version = value.get("version").and_then(Value::as_u64);
-        if version != Some(u64::from(VERSION)) {
-            let version = version.map_or("none".into(), |v| v.to_string());
+        if head.version != Some(VERSION) {
+            let version = head.version.map_or("none".into(), |v| v.to_string());
             return Err(refuse(format!("its version is {version}; this program reads version {VERSION}")));
         }
-        serde_json::from_value(value).map_err(ReportError::json(&path))
+        serde_json::from_slice(&bytes).map_err(ReportError::json(&path))
     }
 
     pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {

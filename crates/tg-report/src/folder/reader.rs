@@ -54,6 +54,15 @@ impl Results {
         }
     }
 
+    /// Makes a part of the rows that a killed program left in the journal, so that programs which read `trajectory/` see
+    /// them too; returns their number. Only where nothing writes the folder any more.
+    ///
+    /// # Errors
+    /// A file cannot be read or written.
+    pub fn recover(&self) -> Result<usize, ReportError> {
+        writer::recover(&self.path, &self.manifest)
+    }
+
     /// All frames.
     ///
     /// # Errors

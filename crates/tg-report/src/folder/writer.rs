@@ -221,17 +221,17 @@ pub(crate) fn checkpoint_path(folder: &Path) -> PathBuf {
     folder.join("checkpoint.json")
 }
 
-/// Makes a part of what a killed program left in the journal.
-fn recover(path: &Path, manifest: &Manifest) -> Result<(), ReportError> {
+/// Makes a part of what a killed program left in the journal; the number of its rows.
+pub(crate) fn recover(path: &Path, manifest: &Manifest) -> Result<usize, ReportError> {
     let left = journal::read(path, &manifest.channels)?;
-    if let Some((number, rows)) =
-        left.filter(|(number, rows)| rows.rows() > 0 && !parts::path(path, *number).exists())
-    {
+    let left = left.filter(|(number, rows)| rows.rows() > 0 && !parts::path(path, *number).exists());
+    if let Some((number, rows)) = &left {
         let folder = parts::folder(path);
         fs::create_dir_all(&folder).map_err(ReportError::io("make", &folder))?;
-        parts::write(path, number, &rows)?;
+        parts::write(path, *number, rows)?;
     }
-    files::remove(&journal::path(path))
+    files::remove(&journal::path(path))?;
+    Ok(left.map_or(0, |(_, rows)| rows.rows()))
 }
 
 /// Removes earlier results, or refuses.

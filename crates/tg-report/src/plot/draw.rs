@@ -42,8 +42,8 @@ impl Plot {
 
     fn draw(&self, canvas: &mut dyn Canvas, [width, height]: Point) -> Result<(), ReportError> {
         self.check()?;
-        let finite = |values: &[f64]| values.iter().any(|x| x.is_finite());
-        if !finite(&self.at) || !self.series.iter().any(|s| finite(&s.values)) {
+        let some = |values: &[f64]| values.iter().any(|&x| drawable(x));
+        if !some(&self.at) || !self.series.iter().any(|s| some(&s.values)) {
             let reason = "there is no finite value".into();
             return Err(ReportError::Empty { what: format!("the plot {:?}", self.title), reason });
         }
@@ -84,9 +84,14 @@ fn fitted(text: &str, size: f64, most: f64) -> String {
     short + "\u{2026}"
 }
 
-/// The least and the greatest finite value.
+/// Whether a value has a place: larger ones are as good as infinite, and their differences are.
+fn drawable(x: f64) -> bool {
+    x.abs() <= 1e300
+}
+
+/// The least and the greatest value that is drawn.
 fn range<'a>(values: impl Iterator<Item = &'a f64>) -> [f64; 2] {
-    let finite = values.filter(|x| x.is_finite());
+    let finite = values.filter(|&&x| drawable(x));
     finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
 }
 

@@ -116,8 +116,19 @@ fn a_killed_program_loses_nothing() {
     child.env("TG_REPORT_TEST_FOLDER", folder.path());
     assert!(!child.output().unwrap().status.success());
     let results = Results::open(folder.path()).unwrap();
-    assert_eq!(results.table().unwrap(), sample::table(PART_ROWS + 77));
+    let rows = PART_ROWS + 77;
+    assert_eq!(results.table().unwrap(), sample::table(rows));
     assert_eq!(results.frames().unwrap().len(), 1);
+    // Other programs see the parts alone.
+    let parts = || {
+        let folder = fs::read_dir(folder.path().join("trajectory")).unwrap();
+        folder.map(|e| Table::read_parquet(&e.unwrap().path()).unwrap().rows()).sum::<usize>()
+    };
+    let left = rows - parts();
+    assert!(left > 0);
+    assert_eq!((results.recover().unwrap(), parts()), (left, rows));
+    assert_eq!(results.table().unwrap(), sample::table(rows));
+    assert_eq!(results.recover().unwrap(), 0);
 }
 
 #[test]

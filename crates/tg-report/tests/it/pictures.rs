@@ -159,6 +159,24 @@ fn plots_name_axes_and_curves() {
 }
 
 #[test]
+fn ticks_are_round_and_have_the_digits_they_need() {
+    let ticks = |low: f64, high: f64| {
+        let series = vec![Series { name: String::new(), values: vec![0.25; 2] }];
+        let (x, y) = (Axis::new("x", ""), Axis::new("y", ""));
+        let (title, kind, time, at) = (String::new(), PlotKind::Lines, false, vec![low, high]);
+        let text = Plot { title, kind, x, y, time, at, series }.svg([560.0, 300.0]).unwrap();
+        let document = Document::parse(&text).unwrap();
+        let beneath = document.descendants().filter(|n| n.attribute("text-anchor") == Some("middle"));
+        beneath.filter_map(|n| n.text()).filter(|t| !["x", "y"].contains(t)).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(ticks(0.0, 10.0), "0 2 4 6 8 10");
+    assert_eq!(ticks(-0.3, 0.31), "\u{2212}0.2 0 0.2");
+    assert_eq!(ticks(0.0, 3e-9), "0 1e\u{2212}9 2e\u{2212}9 3e\u{2212}9");
+    assert_eq!(ticks(2e5, 3e5), "2.0e5 2.2e5 2.4e5 2.6e5 2.8e5 3.0e5");
+    assert_eq!(ticks(1.0, 1.001), "1.0000 1.0002 1.0004 1.0006 1.0008 1.0010");
+}
+
+#[test]
 fn energy_drift_is_relative() {
     let mut table =
         Table::new(vec![Channel::time(), Channel::new("E", "J", "energy"), Channel::new("T", "J", "energy")]);
@@ -199,12 +217,13 @@ fn odd_plots_are_drawn_or_refused() {
             (&[0.0, f64::NAN, 2.0], &[&[1e-300, 1.0, 1e300]]),
             (&[0.0, 1.0], &[&[1.0, 0.0][..]; 60]),
             (&[0.0, 1.0], &[&[f64::INFINITY, 1.0]]),
+            (&[0.0, 1.0, 1.7e308], &[&[-1.7e308, 1.7e308, 1.0], &[2.0, 3.0, 4.0]]),
         ] {
             let plot = plot(kind, at, values);
             let text = plot.svg([500.0, 300.0]).unwrap();
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
             Document::parse(&text).unwrap();
-            decoded(&plot.png([500.0, 300.0], 1.0).unwrap());
+            decoded(&plot.png([500.0, 300.0], if kind == PlotKind::Lines { f64::NAN } else { 0.0 }).unwrap());
         }
         let nothing = plot(kind, &[0.0], &[&[f64::NAN]]);
         assert!(matches!(nothing.svg([500.0, 300.0]), Err(ReportError::Empty { .. })));

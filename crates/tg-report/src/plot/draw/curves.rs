@@ -1,7 +1,7 @@
 //! Lines and points with a legend.
 
 use super::axes::ordinates;
-use super::{Frame, LABEL, TICK, fitted, range, widened};
+use super::{Frame, LABEL, TICK, drawable, fitted, range, widened};
 use crate::canvas::{Anchor, Canvas, Point, Stroke, Text, width};
 use crate::colour::{Colour, SERIES};
 use crate::plot::{Plot, PlotKind};
@@ -34,8 +34,7 @@ pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, b
     // The first curves, which the legend names in any case, are drawn last.
     for (k, series) in thin.series.iter().enumerate().rev() {
         let points = thin.at.iter().zip(&series.values);
-        let points =
-            points.map(|(&x, &y)| (x.is_finite() && y.is_finite()).then(|| [frame.x(x), frame.y(y)]));
+        let points = points.map(|(&x, &y)| (drawable(x) && drawable(y)).then(|| [frame.x(x), frame.y(y)]));
         curve(canvas, &points.collect::<Vec<_>>(), plot.kind, k);
     }
     if names > 0.0 {

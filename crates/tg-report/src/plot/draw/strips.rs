@@ -1,6 +1,6 @@
 //! When something is the case: a row for each series, a bar where it is 1.
 
-use super::{Frame, TICK, fitted, range, widened};
+use super::{Frame, TICK, drawable, fitted, range, widened};
 use crate::canvas::{Anchor, Canvas, Point, Stroke, Text, width};
 use crate::colour::{Colour, SERIES};
 use crate::plot::Plot;
@@ -44,7 +44,7 @@ pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, b
 fn intervals(at: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     let mut intervals = Vec::new();
     let mut open = None;
-    for (&x, &value) in at.iter().zip(values).filter(|(x, _)| x.is_finite()) {
+    for (&x, &value) in at.iter().zip(values).filter(|(x, _)| drawable(**x)) {
         match (open, value > 0.5) {
             (None, true) => open = Some(x),
             (Some(from), false) => {
@@ -54,7 +54,7 @@ fn intervals(at: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
             _ => {}
         }
     }
-    let last = at.iter().rfind(|x| x.is_finite());
+    let last = at.iter().rfind(|&&x| drawable(x));
     intervals.extend(open.zip(last).map(|(from, &to)| [from, to]));
     intervals
 }
