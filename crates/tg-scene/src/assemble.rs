@@ -147,7 +147,7 @@ where
         let q = model.initial_coordinates();
         for (member, twist) in &self.motions {
             let set = model.set_twist(*member, twist, &q, &mut velocities);
-            set.map_err(|error| ReadError::new(error.to_string()).at(&self.scene.dimension.span))?;
+            set.map_err(|error| ReadError::from_below(&error).at(&self.scene.dimension.span))?;
         }
         let watched = watched.into_iter().map(|(name, located)| (name, located.place)).collect();
         Ok(Structure { model, pictures: self.pictures, groups: self.groups, watched, velocities })
@@ -178,15 +178,23 @@ where
 
 /// An error of the model at a place of the file.
 fn mistake(error: &BuildError, span: &Span) -> ReadError {
-    ReadError::new(error.to_string()).at(span)
+    let error_below = ReadError::from_below(error).at(span);
+    if matches!(error, BuildError::Redundant { .. }) {
+        let help =
+            "remove the joint or support that repeats another, or write redundancies = \"drop\" at the top";
+        return error_below.help(help);
+    }
+    error_below
 }
 
-/// Where the part is written that an error of the whole structure is about: it names kind and part, or a part alone.
+/// Where the part is written that an error of the whole structure is about: the first that it names with its kind, or the
+/// first that it names at all.
 fn origin(error: &BuildError, origins: &[(&'static str, String, Span)]) -> Option<Span> {
     let text = error.to_string();
-    let named =
-        |(kind, name, _): &&(&'static str, String, Span)| text.contains(&format!("{kind} \"{name}\""));
-    let mentioned = |(_, name, _): &&(&'static str, String, Span)| text.contains(&format!("\"{name}\""));
-    let found = origins.iter().find(named).or_else(|| origins.iter().find(mentioned));
-    found.map(|(_, _, span)| span.clone())
+    let first = |written: &dyn Fn(&'static str, &str) -> String| {
+        let found =
+            origins.iter().filter_map(|(kind, name, span)| Some((text.find(&written(kind, name))?, span)));
+        found.min_by_key(|(at, _)| *at).map(|(_, span)| span.clone())
+    };
+    first(&|kind, name| format!("{kind} \"{name}\"")).or_else(|| first(&|_, name| format!("\"{name}\"")))
 }

@@ -79,7 +79,14 @@ impl Variables {
         if value.is_finite() {
             return Ok(value);
         }
-        Err(ReadError::new(format!("the value is {value}")).at(&quantity.span).help("give a finite number"))
+        let error = match &quantity.value {
+            Expression::Number(_) => {
+                ReadError::new(format!("the value is {value}")).help("give a finite number")
+            }
+            Expression::Text(text) => ReadError::new(format!("the value of `{text}` is {value}"))
+                .help("a division by zero, or a function outside its range"),
+        };
+        Err(error.at(&quantity.span))
     }
 
     /// A text with the expressions in its braces replaced by their values: `strut {i + 1}`.
@@ -88,7 +95,8 @@ impl Variables {
         let mut rest = text;
         while let Some((before, after)) = rest.split_once('{') {
             let Some((expression, after)) = after.split_once('}') else {
-                return Err(ReadError::new(format!("`{text}` opens a brace and does not close it")).at(span));
+                let error = ReadError::new(format!("`{text}` opens a brace and does not close it"));
+                return Err(error.at(span).help("braces hold an expression: \"name {i + 1}\""));
             };
             let value = self.evaluate(expression, span)?;
             filled += before;

@@ -53,7 +53,7 @@ fn table(object: &ast::Object<'_>) -> Result<Value, ReadError> {
     for property in &object.properties {
         let (key, span) = (property.name.as_str().to_string(), span(&property.name));
         if entries.iter().any(|entry| entry.key == key) {
-            return Err(ReadError::new(format!("the key \"{key}\" stands here a second time"))
+            return Err(ReadError::new(format!("the key `{key}` stands here a second time"))
                 .at(&span)
                 .help("remove one of the two"));
         }

@@ -43,7 +43,7 @@ impl<'s> Signals<'s> {
             }
             SignalValue::Function(function) => self.function(function, variables)?,
         };
-        signal.check().map_err(|error| ReadError::new(error.to_string()).at(&given.span))?;
+        signal.check().map_err(|error| ReadError::from_below(&error).at(&given.span))?;
         Ok(signal)
     }
 
@@ -74,7 +74,7 @@ impl<'s> Signals<'s> {
             Function::Table(table) => {
                 let signal = Signal::table(all(&table.times)?, all(&table.values)?);
                 let span = table.times.first().map_or(0..0, |first| first.span.clone());
-                signal.map_err(|error| ReadError::new(error.to_string()).at(&span))?
+                signal.map_err(|error| ReadError::from_below(&error).at(&span))?
             }
             Function::File(file) => self.recorded(file, variables)?,
             Function::Sum(list) => {
