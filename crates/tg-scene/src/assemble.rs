@@ -22,10 +22,10 @@ use crate::spanned::Spanned;
 use crate::structure::{MemberPicture, Structure};
 use crate::values::{vector, whole};
 
-/// More copies of one array are a slip of the pen.
-const MOST_COPIES: usize = 100_000;
-/// More copies of all arrays together, as arrays hold arrays.
-const MOST_PARTS: usize = 1_000_000;
+/// More copies of all arrays together are a slip of the pen; a fuzzer has less time.
+const MOST_COPIES: usize = if cfg!(fuzzing) { 200 } else { 100_000 };
+/// More parts that the copies of arrays make are one too.
+const MOST_PARTS: usize = if cfg!(fuzzing) { 1_000 } else { 1_000_000 };
 
 /// What a scene is built with besides itself.
 pub(crate) struct Context<'s> {
@@ -44,7 +44,9 @@ struct Assembler<'s, const D: usize> {
     pictures: Vec<MemberPicture>,
     groups: Vec<Option<String>>,
     motions: Vec<(MemberId, Twist<D>)>,
+    /// Copies of arrays made in this pass, and their parts.
     copies: usize,
+    parts: usize,
 }
 
 type Pass<'s, const D: usize> = fn(&mut Assembler<'s, D>, Parts<'s>, &Copy<D>) -> Result<(), ReadError>;
@@ -68,11 +70,12 @@ where
         groups: Vec::new(),
         motions: Vec::new(),
         copies: 0,
+        parts: 0,
     };
     let whole = Copy { variables, pose: Pose::identity() };
     assembler.settings(&whole)?;
     assembler.each_copy(scene.parts(), &whole, Assembler::place_members)?;
-    assembler.copies = 0;
+    (assembler.copies, assembler.parts) = (0, 0);
     assembler.each_copy(scene.parts(), &whole, Assembler::attach)?;
     let watched = assembler.watched(&whole)?;
     assembler.finish(watched)
@@ -96,14 +99,16 @@ where
 
     /// The parts themselves, then those of each array, copy by copy.
     fn each_copy(&mut self, parts: Parts<'s>, copy: &Copy<D>, pass: Pass<'s, D>) -> Result<(), ReadError> {
-        self.copies += 1;
         pass(self, parts, copy)?;
         for (name, array) in parts.arrays {
             let count = whole(&copy.variables, &array.count, MOST_COPIES)?;
             for k in 0..count {
-                if self.copies > MOST_PARTS {
-                    let message = format!("the arrays make more than {MOST_PARTS} copies");
-                    return Err(ReadError::new(message).at(&name.span));
+                self.copies += 1;
+                self.parts += array.parts().count();
+                let too_many = [(self.copies, MOST_COPIES, "copies"), (self.parts, MOST_PARTS, "parts")];
+                if let Some((_, most, what)) = too_many.into_iter().find(|(made, most, _)| made > most) {
+                    let message = format!("the arrays make more than {most} {what}");
+                    return Err(ReadError::new(message).at(&name.span).help("lower a count"));
                 }
                 let inner = array_copy(array, k as f64, copy)?;
                 self.each_copy(array.parts(), &inner, pass)?;

@@ -221,11 +221,11 @@ fn rest_lengths_follow_from_what_is_given() {
         else {
             panic!("another law")
         };
-        assert_close(&[state.rest_length, state.tension, *stiffness], &[mu, tension, kappa], 1e-12);
+        assert_close(&[state.rest, state.tension, *stiffness], &[mu, tension, kappa], 1e-12);
     }
     let law = |name: &str| format!("{:?}", model.cable_law(cable(model, name)));
     assert!(law("of ratio").starts_with("Linear") && law("of density").starts_with("Slacking"));
-    assert!(law("of density").contains("damping: 0.5") && law("axial, density").contains("damping: 3"));
+    assert!(law("of density").contains("η = 0.5") && law("axial, density").contains("η = 3"));
     assert_eq!(structure.groups[0], None);
     assert_eq!(structure.groups[1].as_deref(), Some("soft"));
 }

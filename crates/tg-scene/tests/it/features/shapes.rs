@@ -15,7 +15,7 @@ fn integrate(
     let (mut count, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
     for k in 0..CELLS * CELLS * CELLS {
         let cell = [k % CELLS, k / CELLS % CELLS, k / CELLS / CELLS].map(|n| n as f64 + 0.5);
-        let point = from + edge.component_mul(&cell.into());
+        let point = from + edge.component_mul(&Vector3::from(cell));
         if inside(&point) {
             count += 1.0;
             first += point;
