@@ -3,4 +3,5 @@
 
 mod features;
 mod folder;
+mod limits;
 mod malformed;
