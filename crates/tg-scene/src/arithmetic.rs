@@ -63,13 +63,16 @@ impl Arithmetic {
         })
     }
 
-    /// Whether it uses a name that satisfies a predicate.
-    pub(crate) fn uses(&self, name: &impl Fn(&str) -> bool) -> bool {
+    /// Calls `see` with each name that it uses.
+    pub(crate) fn each_name<'a>(&'a self, see: &mut impl FnMut(&'a str)) {
         match self {
-            Self::Number(_) => false,
-            Self::Name(used) => name(used),
-            Self::Unary(_, a) => a.uses(name),
-            Self::Binary(_, a, b) => a.uses(name) || b.uses(name),
+            Self::Number(_) => {}
+            Self::Name(name) => see(name),
+            Self::Unary(_, a) => a.each_name(see),
+            Self::Binary(_, a, b) => {
+                a.each_name(see);
+                b.each_name(see);
+            }
         }
     }
 }

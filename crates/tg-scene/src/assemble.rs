@@ -22,10 +22,10 @@ use crate::spanned::Spanned;
 use crate::structure::{MemberPicture, Structure};
 use crate::values::{vector, whole};
 
-/// More copies of one array are a slip of the pen.
-const MOST_COPIES: usize = 100_000;
-/// More copies of all arrays together, as arrays hold arrays.
-const MOST_PARTS: usize = 1_000_000;
+/// More copies of all arrays together are a slip of the pen; a fuzzer has less time.
+const MOST_COPIES: usize = if cfg!(fuzzing) { 200 } else { 100_000 };
+/// More parts that the copies of arrays make are one too.
+const MOST_PARTS: usize = if cfg!(fuzzing) { 1_000 } else { 1_000_000 };
 
 /// What a scene is built with besides itself.
 pub(crate) struct Context<'s> {
@@ -44,7 +44,9 @@ struct Assembler<'s, const D: usize> {
     pictures: Vec<MemberPicture>,
     groups: Vec<Option<String>>,
     motions: Vec<(MemberId, Twist<D>)>,
+    /// Copies of arrays made in this pass, and their parts.
     copies: usize,
+    parts: usize,
 }
 
 type Pass<'s, const D: usize> = fn(&mut Assembler<'s, D>, Parts<'s>, &Copy<D>) -> Result<(), ReadError>;
@@ -68,11 +70,12 @@ where
         groups: Vec::new(),
         motions: Vec::new(),
         copies: 0,
+        parts: 0,
     };
     let whole = Copy { variables, pose: Pose::identity() };
     assembler.settings(&whole)?;
     assembler.each_copy(scene.parts(), &whole, Assembler::place_members)?;
-    assembler.copies = 0;
+    (assembler.copies, assembler.parts) = (0, 0);
     assembler.each_copy(scene.parts(), &whole, Assembler::attach)?;
     let watched = assembler.watched(&whole)?;
     assembler.finish(watched)
@@ -96,14 +99,16 @@ where
 
     /// The parts themselves, then those of each array, copy by copy.
     fn each_copy(&mut self, parts: Parts<'s>, copy: &Copy<D>, pass: Pass<'s, D>) -> Result<(), ReadError> {
-        self.copies += 1;
         pass(self, parts, copy)?;
         for (name, array) in parts.arrays {
             let count = whole(&copy.variables, &array.count, MOST_COPIES)?;
             for k in 0..count {
-                if self.copies > MOST_PARTS {
-                    let message = format!("the arrays make more than {MOST_PARTS} copies");
-                    return Err(ReadError::new(message).at(&name.span));
+                self.copies += 1;
+                self.parts += array.parts().count();
+                let too_many = [(self.copies, MOST_COPIES, "copies"), (self.parts, MOST_PARTS, "parts")];
+                if let Some((_, most, what)) = too_many.into_iter().find(|(made, most, _)| made > most) {
+                    let message = format!("the arrays make more than {most} {what}");
+                    return Err(ReadError::new(message).at(&name.span).help("lower a count"));
                 }
                 let inner = array_copy(array, k as f64, copy)?;
                 self.each_copy(array.parts(), &inner, pass)?;
@@ -147,7 +152,7 @@ where
         let q = model.initial_coordinates();
         for (member, twist) in &self.motions {
             let set = model.set_twist(*member, twist, &q, &mut velocities);
-            set.map_err(|error| ReadError::new(error.to_string()).at(&self.scene.dimension.span))?;
+            set.map_err(|error| ReadError::from_below(&error).at(&self.scene.dimension.span))?;
         }
         let watched = watched.into_iter().map(|(name, located)| (name, located.place)).collect();
         Ok(Structure { model, pictures: self.pictures, groups: self.groups, watched, velocities })
@@ -178,15 +183,23 @@ where
 
 /// An error of the model at a place of the file.
 fn mistake(error: &BuildError, span: &Span) -> ReadError {
-    ReadError::new(error.to_string()).at(span)
+    let error_below = ReadError::from_below(error).at(span);
+    if matches!(error, BuildError::Redundant { .. }) {
+        let help =
+            "remove the joint or support that repeats another, or write redundancies = \"drop\" at the top";
+        return error_below.help(help);
+    }
+    error_below
 }
 
-/// Where the part is written that an error of the whole structure is about: it names kind and part, or a part alone.
+/// Where the part is written that an error of the whole structure is about: the first that it names with its kind, or the
+/// first that it names at all.
 fn origin(error: &BuildError, origins: &[(&'static str, String, Span)]) -> Option<Span> {
     let text = error.to_string();
-    let named =
-        |(kind, name, _): &&(&'static str, String, Span)| text.contains(&format!("{kind} \"{name}\""));
-    let mentioned = |(_, name, _): &&(&'static str, String, Span)| text.contains(&format!("\"{name}\""));
-    let found = origins.iter().find(named).or_else(|| origins.iter().find(mentioned));
-    found.map(|(_, _, span)| span.clone())
+    let first = |written: &dyn Fn(&'static str, &str) -> String| {
+        let found =
+            origins.iter().filter_map(|(kind, name, span)| Some((text.find(&written(kind, name))?, span)));
+        found.min_by_key(|(at, _)| *at).map(|(_, span)| span.clone())
+    };
+    first(&|kind, name| format!("{kind} \"{name}\"")).or_else(|| first(&|_, name| format!("\"{name}\"")))
 }

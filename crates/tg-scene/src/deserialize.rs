@@ -1,13 +1,16 @@
 //! serde over the tree. Every error gets the span of the innermost value, key or table that it is about.
 
+use std::cell::Cell;
+
 use serde::Deserialize;
 use serde::de::value::{StrDeserializer, StringDeserializer};
 use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess, VariantAccess, Visitor,
+    DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess, Unexpected,
+    VariantAccess, Visitor,
 };
 use serde::forward_to_deserialize_any;
 
-use crate::error::ReadError;
+use crate::error::{ReadError, found};
 use crate::node::{Entry, Node, Span, Value};
 use crate::spanned;
 
@@ -27,7 +30,14 @@ impl<'de> Deserializer<'de> for &'de Node {
             Value::Float(value) => visitor.visit_f64(*value),
             Value::Text(text) => visitor.visit_borrowed_str(text),
             Value::List(list) => visitor.visit_seq(Items { rest: list.iter() }),
-            Value::Table(entries) => visitor.visit_map(Entries { rest: entries.iter(), current: None }),
+            Value::Table(entries) => {
+                let current = Cell::new(None);
+                let entries = Entries { rest: entries.iter(), current: &current };
+                // A key whose value was not asked for is what the visitor did not like.
+                visitor
+                    .visit_map(entries)
+                    .map_err(|error| error.at_opt(current.get().map(|entry| entry.span.clone())))
+            }
         };
         result.map_err(|error| error.at(&self.span))
     }
@@ -56,7 +66,18 @@ impl<'de> Deserializer<'de> for &'de Node {
         if name == spanned::NAME {
             return visitor.visit_seq(spanned::Access::new(&self.span, self));
         }
-        self.deserialize_any(visitor)
+        let unexpected = match &self.value {
+            Value::Table(_) => return self.deserialize_any(visitor),
+            Value::Null => Unexpected::Unit,
+            Value::Bool(value) => Unexpected::Bool(*value),
+            Value::Integer(value) => Unexpected::Signed(*value),
+            Value::Float(value) => Unexpected::Float(*value),
+            Value::Text(text) => Unexpected::Str(text),
+            // serde would take a list as the values of a table in order.
+            Value::List(_) => Unexpected::Seq,
+        };
+        let message = format!("expected a table, found {}", found(&unexpected));
+        Err(ReadError::new(message).at(&self.span))
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -103,17 +124,18 @@ impl<'de> SeqAccess<'de> for Items<'de> {
     }
 }
 
-struct Entries<'de> {
+struct Entries<'de, 'c> {
     rest: std::slice::Iter<'de, Entry>,
-    current: Option<&'de Entry>,
+    /// The entry whose key has been given and whose value has not.
+    current: &'c Cell<Option<&'de Entry>>,
 }
 
-impl<'de> MapAccess<'de> for Entries<'de> {
+impl<'de> MapAccess<'de> for Entries<'de, '_> {
     type Error = ReadError;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, ReadError> {
-        self.current = self.rest.next();
-        let Some(entry) = self.current else { return Ok(None) };
+        self.current.set(self.rest.next());
+        let Some(entry) = self.current.get() else { return Ok(None) };
         seed.deserialize(Key(entry)).map(Some).map_err(|error| error.at(&entry.span))
     }
 

@@ -105,7 +105,7 @@ impl Dimension<2> for Space {
                 return Err(only("a body in the plane has one moment of inertia", &rows.span, "polar = I_z"));
             }
         };
-        properties.map_err(|error| ReadError::new(error.to_string()).at(span))
+        properties.map_err(|error| ReadError::from_below(&error).at(span))
     }
 
     fn solid(shape: &Shape, variables: &Variables) -> Result<Solid<2>, ReadError> {
@@ -127,7 +127,7 @@ impl Dimension<2> for Space {
         };
         let moment = vector::<1>(on.variables, moment)?[0];
         let added = builder.moment(name, on.member, moment, factor);
-        added.map(|_| ()).map_err(|error| ReadError::new(error.to_string()).at(on.span))
+        added.map(|_| ()).map_err(|error| ReadError::from_below(&error).at(on.span))
     }
 }
 
@@ -178,7 +178,7 @@ impl Dimension<3> for Space {
                 return Err(only("a body in space has three moments of inertia", &moment.span, help));
             }
         };
-        properties.map_err(|error| ReadError::new(error.to_string()).at(span))
+        properties.map_err(|error| ReadError::from_below(&error).at(span))
     }
 
     fn solid(shape: &Shape, variables: &Variables) -> Result<Solid<3>, ReadError> {
@@ -206,7 +206,7 @@ impl Dimension<3> for Space {
             }
             (None, None) => return Err(ReadError::new("a load without a moment").at(on.span)),
         };
-        added.map(|_| ()).map_err(|error| ReadError::new(error.to_string()).at(on.span))
+        added.map(|_| ()).map_err(|error| ReadError::from_below(&error).at(on.span))
     }
 }
 
@@ -225,7 +225,7 @@ fn rotation(given: &Rotation, variables: &Variables) -> Result<Rotation3<f64>, R
             let matrix: Matrix3<f64> = matrix(variables, rows)?;
             let pose = Pose::new(Vector3::zeros(), matrix);
             pose.map(|pose| Rotation3::from_matrix_unchecked(pose.rotation))
-                .map_err(|error| ReadError::new(error.to_string()).at(&rows.span))
+                .map_err(|error| ReadError::from_below(&error).at(&rows.span))
         }
         Rotation::Quaternion(parts) => {
             let [x, y, z, w] = vector::<4>(variables, parts)?.into();

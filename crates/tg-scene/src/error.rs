@@ -22,6 +22,15 @@ impl ReadError {
         Self { message: message.into(), span: None, help: None }
     }
 
+    /// From an error of the layers below, whose last clause says what would mend it.
+    pub(crate) fn from_below(error: &dyn fmt::Display) -> Self {
+        let text = error.to_string();
+        match text.rsplit_once("; ") {
+            Some((message, mend)) => Self::new(message).help(mend),
+            None => Self::new(text),
+        }
+    }
+
     /// Says where, unless something more precise has been said.
     pub(crate) fn at(self, span: &Span) -> Self {
         self.at_opt(Some(span.clone()))
@@ -78,7 +87,11 @@ impl de::Error for ReadError {
     }
 
     fn missing_field(field: &'static str) -> Self {
-        Self::new(format!("the key `{field}` is missing"))
+        let error = Self::new(format!("the key `{field}` is missing"));
+        if matches!(field, "version" | "dimension") {
+            return error.help("a scene begins with version = 1 and dimension = 2 or 3");
+        }
+        error
     }
 
     fn duplicate_field(field: &'static str) -> Self {
@@ -87,11 +100,11 @@ impl de::Error for ReadError {
     }
 
     fn invalid_type(unexpected: de::Unexpected<'_>, expected: &dyn de::Expected) -> Self {
-        Self::new(format!("expected {expected}, found {}", found(&unexpected)))
+        Self::new(format!("expected {}, found {}", plain(&expected.to_string()), found(&unexpected)))
     }
 
     fn invalid_value(unexpected: de::Unexpected<'_>, expected: &dyn de::Expected) -> Self {
-        Self::new(format!("expected {expected}, found {}", found(&unexpected)))
+        Self::new(format!("expected {}, found {}", plain(&expected.to_string()), found(&unexpected)))
     }
 
     fn invalid_length(len: usize, expected: &dyn de::Expected) -> Self {
@@ -99,12 +112,27 @@ impl de::Error for ReadError {
     }
 }
 
-/// In the words of scene files.
-fn found(unexpected: &de::Unexpected<'_>) -> String {
+/// What serde expects, in the words of scene files.
+fn plain(expected: &str) -> &str {
+    match expected {
+        "a sequence" => "a list",
+        "a map" => "a table",
+        "a string" => "text in quotes",
+        "u32" => "a whole number",
+        other => other,
+    }
+}
+
+/// What was found, in the words of scene files.
+pub(crate) fn found(unexpected: &de::Unexpected<'_>) -> String {
     match unexpected {
         de::Unexpected::Map => "a table".into(),
         de::Unexpected::Seq => "a list".into(),
-        de::Unexpected::Unit => "nothing".into(),
+        de::Unexpected::Unit => "null".into(),
+        de::Unexpected::Bool(value) => format!("`{value}`"),
+        de::Unexpected::Signed(value) => format!("the number {value}"),
+        de::Unexpected::Unsigned(value) => format!("the number {value}"),
+        de::Unexpected::Float(value) => format!("the number {value}"),
         de::Unexpected::Str(text) => format!("the text \"{text}\""),
         other => other.to_string(),
     }

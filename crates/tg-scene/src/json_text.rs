@@ -1,5 +1,7 @@
 //! JSON to the tree. Comments are allowed, nothing else that JSON has not.
 
+use std::collections::HashSet;
+
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
@@ -50,10 +52,11 @@ fn convert(value: &ast::Value<'_>) -> Result<Node, ReadError> {
 
 fn table(object: &ast::Object<'_>) -> Result<Value, ReadError> {
     let mut entries: Vec<Entry> = Vec::with_capacity(object.properties.len());
+    let mut known = HashSet::new();
     for property in &object.properties {
         let (key, span) = (property.name.as_str().to_string(), span(&property.name));
-        if entries.iter().any(|entry| entry.key == key) {
-            return Err(ReadError::new(format!("the key \"{key}\" stands here a second time"))
+        if !known.insert(property.name.as_str()) {
+            return Err(ReadError::new(format!("the key `{key}` stands here a second time"))
                 .at(&span)
                 .help("remove one of the two"));
         }

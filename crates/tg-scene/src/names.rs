@@ -11,7 +11,7 @@ use crate::expression::Variables;
 use crate::node::Span;
 use crate::place::{OnMember, PlaceName, PlaceRef};
 use crate::spanned::Spanned;
-use crate::values::{components, vector};
+use crate::values::{COMPONENTS, components, vector};
 
 /// One copy of an array's parts: the values of its indices, and where it stands.
 #[derive(Clone, Debug)]
@@ -69,13 +69,19 @@ impl<const D: usize> NamedMember<D> {
 pub(crate) struct Names<const D: usize>(HashMap<String, Target<D>>);
 
 impl<const D: usize> Names<D> {
+    /// Refuses a name that is taken.
+    pub(crate) fn check_free(&self, name: &str, span: &Span) -> Result<(), ReadError> {
+        if !self.0.contains_key(name) {
+            return Ok(());
+        }
+        let help =
+            "points, anchors and members have different names; in an array use its index: \"name {i}\"";
+        Err(ReadError::new(format!("the name \"{name}\" is taken")).at(span).help(help))
+    }
+
     /// Takes a name, which must be free.
     pub(crate) fn take(&mut self, name: &str, span: &Span, target: Target<D>) -> Result<(), ReadError> {
-        if self.0.contains_key(name) {
-            let help =
-                "points, anchors and members have different names; in an array use its index: \"name {i}\"";
-            return Err(ReadError::new(format!("the name \"{name}\" is taken")).at(span).help(help));
-        }
+        self.check_free(name, span)?;
         self.0.insert(name.into(), target);
         Ok(())
     }
@@ -127,7 +133,7 @@ impl<const D: usize> Names<D> {
             PlaceName::Position(list) => {
                 let values = components::<D>(&copy.variables, list)?.ok_or_else(|| {
                     let message = format!("expected {D} coordinates, found {}", list.len());
-                    ReadError::new(message).at(&given.span)
+                    ReadError::new(message).at(&given.span).help(COMPONENTS)
                 })?;
                 Ok(copy.pose.apply_point(&values.into()))
             }

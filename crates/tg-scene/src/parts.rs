@@ -89,6 +89,15 @@ pub(crate) struct Parts<'a> {
     pub(crate) arrays: List<'a, Array>,
 }
 
+impl Parts<'_> {
+    /// How many parts stand here, those of arrays not counted.
+    pub(crate) fn count(&self) -> usize {
+        let members = self.bars.len() + self.bodies.len() + self.particles.len();
+        let attached = self.joints.len() + self.supports.len() + self.cables.len() + self.loads.len();
+        self.points.len() + self.anchors.len() + members + attached
+    }
+}
+
 with_parts! {
     /// Parts repeated `count` times, each time turned and shifted once more. In names and references `{i}` stands for the
     /// index, `{(i + 1) % 3}` for an expression of it; quantities may use it as a variable.

@@ -19,6 +19,8 @@ pub const VERSION: u32 = 1;
 const SPECTRAL_RADIUS: f64 = 0.7;
 /// Pictures per second that a scene need not say.
 const FRAME_RATE: f64 = 50.0;
+/// Larger recordings \[bytes\] are a slip of the pen: hours of ground motion at 1 kHz have less.
+const LARGEST_FILE: u64 = 256 << 20;
 
 /// The language of a scene's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +46,14 @@ pub struct Folder(pub PathBuf);
 
 impl Files for Folder {
     fn text(&self, name: &str) -> std::io::Result<String> {
-        std::fs::read_to_string(self.0.join(name))
+        let path = self.0.join(name);
+        let about = std::fs::metadata(&path)?;
+        // A device may have no end.
+        if !about.is_file() || about.len() > LARGEST_FILE {
+            let message = format!("not a file of at most {} MiB", LARGEST_FILE >> 20);
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, message));
+        }
+        std::fs::read_to_string(path)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Functions of time as the model takes them; recorded ones from files.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -13,10 +14,15 @@ use crate::read::Files;
 use crate::signal::{CsvFile, Function, RecordKind, SignalSpec, SignalValue};
 use crate::spanned::{Named, Spanned};
 
+/// Signals are copied to where they are used; more terms of sums than this are a slip of the pen.
+const MOST_TERMS: usize = if cfg!(fuzzing) { 10_000 } else { 1_000_000 };
+
 /// The named signals of a scene, and where recorded ones are.
 pub(crate) struct Signals<'s> {
     named: HashMap<&'s str, Signal>,
     files: &'s dyn Files,
+    /// Terms copied so far.
+    terms: Cell<usize>,
 }
 
 impl<'s> Signals<'s> {
@@ -26,7 +32,7 @@ impl<'s> Signals<'s> {
         variables: &Variables,
         files: &'s dyn Files,
     ) -> Result<Self, ReadError> {
-        let mut signals = Self { named: HashMap::new(), files };
+        let mut signals = Self { named: HashMap::new(), files, terms: Cell::new(0) };
         for (name, given) in &named.0 {
             let signal = signals.signal(given, variables)?;
             signals.named.insert(&name.value, signal);
@@ -43,7 +49,7 @@ impl<'s> Signals<'s> {
             }
             SignalValue::Function(function) => self.function(function, variables)?,
         };
-        signal.check().map_err(|error| ReadError::new(error.to_string()).at(&given.span))?;
+        signal.check().map_err(|error| ReadError::from_below(&error).at(&given.span))?;
         Ok(signal)
     }
 
@@ -53,12 +59,19 @@ impl<'s> Signals<'s> {
         let all = |list: &[Quantity]| list.iter().map(number).collect::<Result<Vec<_>, _>>();
         Ok(match function {
             Function::Signal(name) => {
-                let known: Vec<&str> = self.named.keys().copied().collect();
-                let signal = self.named.get(name.value.as_str()).cloned();
-                signal.ok_or_else(|| {
+                let signal = self.named.get(name.value.as_str()).ok_or_else(|| {
+                    let mut known: Vec<&str> = self.named.keys().copied().collect();
+                    known.sort_unstable();
                     let error = ReadError::new(format!("there is no signal \"{}\" above", name.value));
                     error.at(&name.span).suggest(&name.value, &known)
-                })?
+                })?;
+                let terms = if let Signal::Sum(list) = signal { list.len() } else { 1 };
+                self.terms.set(self.terms.get() + terms);
+                if self.terms.get() > MOST_TERMS {
+                    let message = format!("the sums of signals have more than {MOST_TERMS} terms");
+                    return Err(ReadError::new(message).at(&name.span));
+                }
+                signal.clone()
             }
             Function::Sine(sine) => Signal::Sine {
                 amplitude: number(&sine.amplitude)?,
@@ -74,11 +87,19 @@ impl<'s> Signals<'s> {
             Function::Table(table) => {
                 let signal = Signal::table(all(&table.times)?, all(&table.values)?);
                 let span = table.times.first().map_or(0..0, |first| first.span.clone());
-                signal.map_err(|error| ReadError::new(error.to_string()).at(&span))?
+                signal.map_err(|error| ReadError::from_below(&error).at(&span))?
             }
             Function::File(file) => self.recorded(file, variables)?,
             Function::Sum(list) => {
-                Signal::Sum(list.iter().map(|part| self.signal(part, variables)).collect::<Result<_, _>>()?)
+                let mut terms = Vec::new();
+                for part in list {
+                    // A sum of sums is one, however deep.
+                    match self.signal(part, variables)? {
+                        Signal::Sum(inner) => terms.extend(inner),
+                        other => terms.push(other),
+                    }
+                }
+                Signal::Sum(terms)
             }
         })
     }

@@ -8,10 +8,19 @@ use crate::node::{Entry, Node, Value};
 
 /// Parses TOML.
 pub(crate) fn parse(text: &str) -> Result<Node, ReadError> {
-    let table = DeTable::parse(text)
-        .map_err(|error| ReadError::new(error.message().replace('\n', "; ")).at_opt(error.span()))?;
+    let table = DeTable::parse(text).map_err(|error| grammar(&error, text))?;
     let span = table.span();
     Ok(Node { value: convert_table(table.get_ref())?, span })
+}
+
+fn grammar(error: &toml::de::Error, text: &str) -> ReadError {
+    let span = error.span();
+    let key = span.clone().and_then(|span| text.get(span)).unwrap_or_default();
+    if error.message() == "duplicate key" && !key.is_empty() {
+        let error = ReadError::new(format!("the key `{key}` stands here a second time"));
+        return error.at_opt(span).help("remove one of the two");
+    }
+    ReadError::new(error.message().replace('\n', "; ")).at_opt(span)
 }
 
 fn convert_table(table: &DeTable<'_>) -> Result<Value, ReadError> {

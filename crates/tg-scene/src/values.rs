@@ -7,6 +7,9 @@ use crate::expression::Variables;
 use crate::quantity::{Quantity, Vector};
 use crate::spanned::Spanned;
 
+/// How many components a vector has.
+pub(crate) const COMPONENTS: &str = "scenes with dimension = 2 have x and y, with 3 x, y and z";
+
 /// A positive number.
 pub(crate) fn positive(variables: &Variables, quantity: &Quantity) -> Result<f64, ReadError> {
     let value = variables.number(quantity)?;
@@ -14,6 +17,15 @@ pub(crate) fn positive(variables: &Variables, quantity: &Quantity) -> Result<f64
         return Ok(value);
     }
     Err(ReadError::new(format!("the value is {value}; it must be positive")).at(&quantity.span))
+}
+
+/// A number that is positive or zero.
+pub(crate) fn not_negative(variables: &Variables, quantity: &Quantity) -> Result<f64, ReadError> {
+    let value = variables.number(quantity)?;
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    Err(ReadError::new(format!("the value is {value}; it must not be negative")).at(&quantity.span))
 }
 
 /// A whole number between bounds.
@@ -49,9 +61,7 @@ pub(crate) fn vector<const N: usize>(
     let values = components::<N>(variables, &given.value)?;
     values.map(Into::into).ok_or_else(|| {
         let message = format!("expected {}, found {}", count(N), given.value.len());
-        ReadError::new(message)
-            .at(&given.span)
-            .help("scenes with dimension = 2 have x and y, with 3 x, y and z")
+        ReadError::new(message).at(&given.span).help(COMPONENTS)
     })
 }
 

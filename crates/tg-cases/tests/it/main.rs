@@ -4,4 +4,5 @@
 mod antiprism;
 mod mechanism;
 mod rows;
+mod scenes;
 mod snapshots;

@@ -17,7 +17,7 @@ use crate::names::Copy;
 use crate::quantity::Quantity;
 use crate::signal::SignalSpec;
 use crate::spanned::Spanned;
-use crate::values::positive;
+use crate::values::{not_negative, positive};
 
 /// How a rest length is given.
 #[derive(Clone, Copy)]
@@ -71,7 +71,7 @@ where
         let variables = &copy.variables;
         let (stiffness, rest) = self.resolve(stiffness, rest, length, variables)?;
         let damping = cable.damping.as_ref().or(group.and_then(|g| g.damping.as_ref()));
-        let damping = damping.map_or(Ok(0.0), |damping| variables.number(damping))?;
+        let damping = damping.map_or(Ok(0.0), |damping| not_negative(variables, damping))?;
         let law = match cable.law.or(group.and_then(|g| g.law)).unwrap_or(Law::Slacking) {
             Law::Slacking => CableLaw::slacking(stiffness),
             Law::Linear => CableLaw::linear(stiffness),
@@ -116,10 +116,10 @@ where
         };
         match (stiffness, rest, tension) {
             (Stiffness::Spring(k), Rest::Length(rest), _) => {
-                Ok((variables.number(k)?, self.signals.signal(rest, variables)?))
+                Ok((not_negative(variables, k)?, self.signals.signal(rest, variables)?))
             }
             (Stiffness::Spring(k), Rest::Ratio(ratio), _) => {
-                Ok((variables.number(k)?, Signal::Constant(variables.number(ratio)? * length)))
+                Ok((not_negative(variables, k)?, Signal::Constant(variables.number(ratio)? * length)))
             }
             (Stiffness::Spring(k), Rest::Tension(place) | Rest::ForceDensity(place), tension) => {
                 let (k, f) = (positive(variables, k)?, tension.unwrap_or(0.0));

@@ -76,6 +76,7 @@ where
             }
             Part::Anchor(at) => {
                 let (name, position) = (self.name("anchor", given, copy)?, self.names.position(at, copy)?);
+                self.names.check_free(&name, &given.span)?;
                 let id = self.builder.anchor(&name, position.into()).map_err(|e| mistake(&e, &given.span))?;
                 return self.names.take(&name, &given.span, Target::Anchor(id, position));
             }
@@ -84,6 +85,7 @@ where
             Part::Particle(particle) => (self.particle(particle, copy)?, (particle.velocity.as_ref(), None)),
         };
         let name = self.name("member", given, copy)?;
+        self.names.check_free(&name, &given.span)?;
         let id = self
             .builder
             .member(&name, made.member.clone(), made.pose)
@@ -104,10 +106,14 @@ where
         };
         let (from, to) = (self.names.position(from, copy)?, self.names.position(to, copy)?);
         let length = (to - from).norm();
+        if length == 0.0 {
+            let error = ReadError::new("the bar has no length").at(&bar.ends.span);
+            return Err(error.help("its two ends are one point; move one"));
+        }
         let radius = bar.radius.as_ref().map(|r| positive(&copy.variables, r)).transpose()?;
         let mass = bar_mass(bar, length, radius, &copy.variables)?;
         let member = Member::thin_rod(mass, from, to)
-            .map_err(|error| ReadError::new(error.to_string()).at(&bar.ends.span))?;
+            .map_err(|error| ReadError::from_below(&error).at(&bar.ends.span))?;
         let outline =
             Outline { vertices: vec![padded(&from), padded(&to)], edges: vec![[0, 1]], faces: Vec::new() };
         Ok(Made {
@@ -124,9 +130,9 @@ where
 
     fn particle(&self, particle: &Particle, copy: &Copy<D>) -> Result<Made<D>, ReadError> {
         let at = self.names.position(&particle.at, copy)?;
-        let mass = copy.variables.number(&particle.mass)?;
+        let mass = positive(&copy.variables, &particle.mass)?;
         let member = Member::particle(mass, at)
-            .map_err(|error| ReadError::new(error.to_string()).at(&particle.mass.span))?;
+            .map_err(|error| ReadError::from_below(&error).at(&particle.mass.span))?;
         let outline = Outline { vertices: vec![padded(&at)], ..Outline::default() };
         let picture = MemberPicture { kind: PictureKind::Particle, outline, radius: 0.0 };
         Ok(Made { member, pose: Pose::identity(), points: Vec::new(), picture })
@@ -155,7 +161,7 @@ where
         let nodes = basis(body, coord_type, &points, variables)?;
         let span = body.basis.as_ref().map(|b| &b.span).or(body.coord_type.as_ref().map(|t| &t.span));
         let member = Member::new(coord_type, &nodes, mass)
-            .map_err(|error| ReadError::new(error.to_string()).at_opt(span.cloned()))?;
+            .map_err(|error| ReadError::from_below(&error).at_opt(span.cloned()))?;
         let outline = body_outline(body, solid.as_ref(), &points, &member)?;
         let radius =
             outline.vertices.iter().map(|v| SVector::<f64, 3>::from(*v).norm()).fold(0.0, f64::max) * SLENDER;
@@ -235,7 +241,7 @@ where
     match (&body.inertia, solid) {
         (Some(inertia), _) => Space::inertia(mass, centre, inertia, variables),
         (None, Some(solid)) => MassProperties::from_second_moment(mass, centre, solid.second_moment * mass)
-            .map_err(|error| ReadError::new(error.to_string())),
+            .map_err(|error| ReadError::from_below(&error)),
         (None, None) => {
             Err(ReadError::new("the body has no inertia").help("add inertia = { ... }, or a shape"))
         }

@@ -1,4 +1,7 @@
 //! Scene files as their authors see them: the scenes of this repository, mistakes with their messages, and features.
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod features;
 mod folder;
+mod limits;
+mod malformed;
