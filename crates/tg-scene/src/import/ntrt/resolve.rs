@@ -60,8 +60,7 @@ pub(super) fn resolve(world: &World, whole: &Part) -> Result<Draft, Fault> {
     Ok(draft)
 }
 
-const GRAVITY: &str =
-    "gravity = [0, -9.81, 0]   y is up in NTRT; times its units of length by metre, often 10";
+const GRAVITY: &str = "gravity = [0, -9.81, 0]   y is up in NTRT; in decimetres 98.1";
 
 const NOTES: [&str; 3] = [
     "An NTRT structure. Its unit of length is often a decimetre, and forces are then kg dm/s²: length and force scales of 0.1 give SI.",

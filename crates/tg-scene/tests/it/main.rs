@@ -1,0 +1,3 @@
+//! Tests of scene files and of imports.
+
+mod import;
