@@ -1,5 +1,6 @@
 //! Imports: numbers against hand calculations, faults against the line that they stand in.
 
+mod mutations;
 mod neutral;
 mod ntrt;
 mod published;

@@ -2,7 +2,7 @@ use tg_scene::{Built, import};
 
 use super::{build, cables, folder, masses, near, refuses, space};
 
-const CROSS: &str = r#"{
+pub(super) const CROSS: &str = r#"{
   "name": "cross", "dim": 3,
   "source": { "repo": "example", "licence": "none" },
   "nodes": [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0], [0, 0, 2], [0, 0, 3]],

@@ -7,7 +7,7 @@ use tg_scene::{ImportOptions, import, import_with};
 use super::{cables, folder, masses, near, refuses, space};
 
 /// Two rods across each other, four strings around them.
-const KITE: &str = "\
+pub(super) const KITE: &str = "\
 # lengths in decimetres
 nodes:
   west: [-3, 0, 0]
@@ -338,6 +338,7 @@ fn faults_of_substructures_and_bonds() {
             "top.yaml:2:44: ",
             "axis of the rotation is zero",
         ),
+        ("BONDS  string: { a//node_node: [[b1, b1]] }\n", "top.yaml:4:13: ", "no substructure ``"),
         ("BONDS  string: { a/c/node_node: [[b1, b1]] }\n", "top.yaml:4:13: ", "no substructure `c`"),
         ("BONDS  string: { a/b/node_nod: [[b1, b1]] }\n", "top.yaml:4:13: ", "did you mean `node_node`?"),
         ("BONDS  string: { other: [[b1, b1]] }\n", "top.yaml:4:13: ", "tags are nested in tags"),

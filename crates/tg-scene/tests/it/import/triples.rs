@@ -5,7 +5,7 @@ use tg_scene::{Built, ImportOptions, import, import_with};
 
 use super::{build, cables, folder, masses, near, refuses, space};
 
-const NODES: &str = "\
+pub(super) const NODES: &str = "\
 # a mast on a ball joint, stayed by three guys; a weight hangs from its top
 name, x, y, z, fixed, mass
 foot, 0, 0, 0, xyz,
@@ -14,8 +14,8 @@ east, 1, 0, 0, XYZ,
 north, 0, 1, 0, all,
 weight, 0.5, 0.5, 1, , 0.25
 ";
-const BARS: &str = "name,from,to,density,radius\nmast,foot,top,7850,0.01\n";
-const CABLES: &str = "\
+pub(super) const BARS: &str = "name,from,to,density,radius\nmast,foot,top,7850,0.01\n";
+pub(super) const CABLES: &str = "\
 to;from;group;EA;k;rest;pretension;force_density;c
 top;east;guys;;2000;2.1;;;5
 top;north;guys;;2000;;20;;5
