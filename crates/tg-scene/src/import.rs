@@ -6,7 +6,8 @@
 //! | `.yaml`, `.yml` | structures of the NASA Tensegrity Robotics Toolkit | `ntrt` |
 //! | `.json` with a list `nodes` | the neutral form of published structures | `neutral` |
 //!
-//! Each reader fills one draft (`draft`), which is checked, scaled and written (`write`). Errors point into the file read.
+//! Each reader fills one draft (`draft`), which is checked, scaled and written (`write`). Errors point into the file
+//! read.
 
 mod draft;
 mod mass;
@@ -70,7 +71,8 @@ pub enum ImportError {
     },
     /// The name tells no format.
     #[error(
-        "{path}: no import is known for this name; give a folder with nodes.csv, bars.csv and cables.csv, an NTRT .yaml, or a .json with nodes, bars and cables"
+        "{path}: no import is known for this name; give a folder with nodes.csv, bars.csv and cables.csv, \
+         an NTRT .yaml, or a .json with nodes, bars and cables"
     )]
     UnknownFormat {
         /// The file.
