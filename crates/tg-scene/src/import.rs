@@ -6,7 +6,8 @@
 //! | `.yaml`, `.yml` | structures of the NASA Tensegrity Robotics Toolkit | `ntrt` |
 //! | `.json` with a list `nodes` | the neutral form of published structures | `neutral` |
 //!
-//! Each reader fills one draft (`draft`), which is checked, scaled and written (`write`). Errors point into the file read.
+//! Each reader fills one draft (`draft`), which is checked, scaled and written (`write`). Errors point into the file
+//! read.
 
 mod draft;
 mod mass;
@@ -24,7 +25,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
-use crate::error::Mistake;
+use crate::error::{Mistake, SceneError};
 use crate::read::{Language, SceneFile};
 use draft::Draft;
 use sources::Sources;
@@ -70,7 +71,8 @@ pub enum ImportError {
     },
     /// The name tells no format.
     #[error(
-        "{path}: no import is known for this name; give a folder with nodes.csv, bars.csv and cables.csv, an NTRT .yaml, or a .json with nodes, bars and cables"
+        "{path}: no import is known for this name; give a folder with nodes.csv, bars.csv and cables.csv, \
+         an NTRT .yaml, or a .json with nodes, bars and cables"
     )]
     UnknownFormat {
         /// The file.
@@ -141,7 +143,8 @@ fn finish(mut draft: Draft, options: &ImportOptions, sources: &Sources) -> Impor
     let kept = draft.warnings.len();
     draft.drop_redundancies = true;
     draft.warnings.push(format!(
-        "the constraints repeat each other, so that redundancies are dropped; without: {error}"
+        "the constraints repeat each other, so that redundancies are dropped; without: {}",
+        reason(&error)
     ));
     let dropped = write::toml(&draft, options, sources);
     if build(&dropped).is_ok() {
@@ -149,6 +152,17 @@ fn finish(mut draft: Draft, options: &ImportOptions, sources: &Sources) -> Impor
     }
     draft.drop_redundancies = false;
     draft.warnings.truncate(kept);
-    draft.warnings.push(format!("the scene does not build as it is: {error}"));
+    draft.warnings.push(format!("the scene does not build as it is: {}", reason(&error)));
     Imported { toml: write::toml(&draft, options, sources), warnings: draft.warnings }
+}
+
+/// Without the line, which another comment would shift.
+fn reason(error: &SceneError) -> String {
+    match error {
+        SceneError::Mistake(mistake) => {
+            let help = mistake.help.as_ref().map(|help| format!("; {help}"));
+            mistake.message.clone() + &help.unwrap_or_default()
+        }
+        other => other.to_string(),
+    }
 }

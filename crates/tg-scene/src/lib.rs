@@ -29,6 +29,8 @@
 //! The types under [`Scene`] *are* the format: [`schema`] is generated from them, and so is the reference page. Reading has three
 //! steps: TOML or JSON become one tree of values with their places (`toml_text`, `json_text`, `node`), serde makes a
 //! [`Scene`] of it (`deserialize`, `spanned`), and `assemble` builds the model, copy by copy of each array.
+//!
+//! [`import()`] writes scenes from tables of nodes, bars and cables, from NTRT structures and from a neutral JSON.
 
 mod arithmetic;
 mod assemble;

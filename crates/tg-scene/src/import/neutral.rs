@@ -1,8 +1,12 @@
 //! The neutral JSON of published structures: nodes by number from 0; bars, cables and welded bodies between them.
 //!
 //! ```text
-//! nodes: [[x, y, z], ...]      bars: [{ nodes, mass?, radius? }]      cables: [{ nodes, stiffness, rest_length, damping?, group? | tag? }]
-//! bodies: [{ nodes, bars: [index] | mass, com, inertia_world }]       fixed: [{ node, axes: [0, 1, 2] }]      node_names?, dim?, name?
+//! nodes:   [[x, y, z], ...]
+//! bars:    [{ nodes, mass?, radius? }]
+//! cables:  [{ nodes, stiffness, rest_length, damping?, group? | tag? }]
+//! bodies:  [{ nodes, bars: [index] | mass, com, inertia_world }]
+//! fixed:   [{ node, axes: [0, 1, 2] }]
+//! and:     dim?, name?, node_names?, source?, units?
 //! ```
 //! Bars are rigid: their own stiffness and rest length are left out, and so is the mass of cables.
 

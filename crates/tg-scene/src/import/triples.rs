@@ -1,10 +1,13 @@
 //! `nodes.csv`, `bars.csv` and `cables.csv` in one folder; or `NAMEnodes.csv` with `NAMEbars.csv` and `NAMEcables.csv`.
 //!
 //! ```text
-//! nodes:   name, x, y [, z] [, fixed] [, mass]       fixed: the letters of the held components, as xyz
-//! bars:    [name,] from, to [, mass | line_density | density] [, radius]
-//! cables:  [name,] from, to, stiffness | axial_stiffness, rest | rest_ratio | tension | force_density [, damping] [, group] [, law]
+//! nodes:   name, x, y, z?, fixed?, mass?        fixed: the letters of the held components, as xyz
+//! bars:    name?, from, to, mass | line_density | density, radius?
+//! cables:  name?, from, to, stiffness | axial_stiffness, rest | rest_ratio | tension | force_density,
+//!          damping?, group?, law?
 //! ```
+//! Columns in any order, with the aliases of scenes; commas, semicolons or tabs between them. Without z the structure is
+//! of the plane. Bars that end in one node are joined there, a node with a mass is a particle, a fixed node an anchor.
 
 use std::collections::HashMap;
 use std::path::Path;

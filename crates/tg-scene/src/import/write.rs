@@ -1,7 +1,7 @@
 //! A draft as a scene in TOML.
 //!
-//! A node becomes an anchor where all its components are held, a particle where it has a mass, else a point; what ends in it is
-//! joined there, and cables are attached to the first that holds it.
+//! A node becomes an anchor where all its components are held, a particle where it has a mass, else a point; what ends
+//! in it is joined there, and cables are attached to the first that holds it.
 
 mod cables;
 mod toml_line;

@@ -1,5 +1,5 @@
-//! YAML to the tree. Scalars stay text, as a node may be called `1` or `yes`. Anchors and aliases are refused: a few lines
-//! of them can stand for more than fits the memory.
+//! YAML to the tree. Scalars stay text, as a node may be called `1` or `yes`. Aliases are refused: a few lines of them
+//! can stand for more than fits the memory.
 
 use saphyr_parser::{Event, Parser, Span as YamlSpan};
 

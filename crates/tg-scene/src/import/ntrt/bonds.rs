@@ -1,7 +1,9 @@
 //! Bonds between substructures.
 //!
-//! node_node: a pair between a node of each. node_edge: at least three nodes that shall lie in strings of the other structure; the second
-//! structure is turned so that both planes agree and the first nodes point the same way, and moved so that both centroids agree;
+//! node_node: a pair between a node of each.
+//!
+//! node_edge: at least three nodes that shall lie in the middle of strings of the other structure. The second structure
+//! is turned so that both planes agree and the first nodes point the same way, and moved so that both centroids agree;
 //! then each string gives way to two that meet in the node, and strings among the nodes themselves go.
 
 use nalgebra::{Rotation3, Unit, Vector3};

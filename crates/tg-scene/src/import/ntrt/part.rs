@@ -83,7 +83,7 @@ impl Part {
     pub(super) fn child(&self, name: &str, span: &Span) -> Result<&Part, ReadError> {
         let wanted = words(name);
         let found = self.levels().skip(1).find(|part| has_all(&words(&part.name), &wanted));
-        found.ok_or_else(|| {
+        found.filter(|_| !wanted.is_empty()).ok_or_else(|| {
             let known: Vec<&str> = self.children.iter().map(|part| part.name.as_str()).collect();
             ReadError::new(format!("there is no substructure `{name}`")).at(span).suggest(name, &known)
         })

@@ -60,12 +60,13 @@ pub(super) fn resolve(world: &World, whole: &Part) -> Result<Draft, Fault> {
     Ok(draft)
 }
 
-const GRAVITY: &str =
-    "gravity = [0, -9.81, 0]   y is up in NTRT; times its units of length by metre, often 10";
+const GRAVITY: &str = "gravity = [0, -9.81, 0]   y is up in NTRT; in decimetres 98.1";
 
 const NOTES: [&str; 3] = [
-    "An NTRT structure. Its unit of length is often a decimetre, and forces are then kg dm/s²: length and force scales of 0.1 give SI.",
-    "Strings end in nodes here, on the surface of the rods there; rods that touch are one rigid body, with the inertia of solid cylinders.",
+    "An NTRT structure. Its unit of length is often a decimetre; forces are then kg dm/s²,\n\
+     and length and force scales of 0.1 give SI.",
+    "Strings end in nodes here, on the surface of the rods there; rods that touch are one rigid body,\n\
+     with the inertia of solid cylinders.",
     "Limits of motors and of tension, friction and contact are left out.",
 ];
 
