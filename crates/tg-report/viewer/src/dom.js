@@ -2,6 +2,11 @@
 export function h(tag, props = {}, ...children) {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(props)) {
+    // The states of ARIA are words, also when false.
+    if (key.startsWith('aria-')) {
+      if (value !== null && value !== undefined) element.setAttribute(key, value);
+      continue;
+    }
     if (value === false || value === null || value === undefined) continue;
     if (key.startsWith('on')) element.addEventListener(key.slice(2), value);
     else if (key === 'class') element.className = value;

@@ -38,7 +38,7 @@ export class PlotCard {
     this.undo = h('button', { type: 'button', class: 'text', hidden: true, onclick: () => this.zoomAll(null) }, 'Reset zoom');
     this.holder = h('div', { class: 'plot' });
     const list = new SeriesList(
-      plot.series.map((s, i) => ({ name: s.name, swatch: this.strips ? 'var(--strip)' : seriesStyle(i).colour })),
+      plot.series.map((s, i) => ({ name: s.name, swatch: this.strips ? 'var(--strip)' : seriesStyle(i).swatch })),
       this.visible, () => this.showVisible());
     this.list = list;
     const single = plot.series.length === 1 && !this.strips;
@@ -239,7 +239,7 @@ export class PlotCard {
   }
 
   repaint() {
-    if (!this.strips) this.plot.series.forEach((_, i) => (this.list.entries[i].swatch = seriesStyle(i).colour));
+    if (!this.strips) this.plot.series.forEach((_, i) => (this.list.entries[i].swatch = seriesStyle(i).swatch));
     this.list.refresh();
     if (this.chart) this.draw();
   }

@@ -6,15 +6,16 @@ import { CableLines } from './cable-lines.js';
 export const looks = {
   solid: { opacity: 1, cableWidth: 2.4, ghost: false },
   small: { opacity: 1, cableWidth: 2, ghost: false },
-  faint: { opacity: 0.28, cableWidth: 1.3, ghost: false },
+  faint: { opacity: 0.36, cableWidth: 1.5, ghost: false },
   ghost: { opacity: 0.2, cableWidth: 1.2, ghost: true },
 };
 
 /** Radii as drawn: the true one, but never so thin that it could be taken for a cable. */
 export function drawnRadii(assembly, size) {
-  return assembly.members.map(({ kind, radius }) => {
-    const least = size * { bar: 0.0065, body: 0.0035, particle: 0.012 }[kind];
-    return Math.max(radius, least);
+  const length = ({ vertices: v }) => (v.length > 1 ? Math.hypot(...v[0].map((x, i) => x - v[1][i])) : Infinity);
+  return assembly.members.map((member) => {
+    const least = size * { bar: 0.0065, body: 0.0035, particle: 0.012 }[member.kind];
+    return Math.max(member.radius, Math.min(least, 0.03 * length(member)));
   });
 }
 

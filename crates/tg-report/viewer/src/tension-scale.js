@@ -1,4 +1,4 @@
-import { oklchToSrgb } from './oklab.js';
+import { oklabToSrgb, oklch } from './oklab.js';
 import { number, quantity } from './format.js';
 
 /**
@@ -20,12 +20,12 @@ const STEPS = 256;
 
 function table(stops) {
   const rgb = new Float32Array(STEPS * 3);
+  const points = stops.map((stop) => oklch(...stop));
   for (let i = 0; i < STEPS; i++) {
     const at = (i / (STEPS - 1)) * (stops.length - 1);
     const k = Math.min(stops.length - 2, Math.floor(at));
     const w = at - k;
-    const mix = (c) => stops[k][c] * (1 - w) + stops[k + 1][c] * w;
-    rgb.set(oklchToSrgb(mix(0), mix(1), mix(2)), i * 3);
+    rgb.set(oklabToSrgb(points[k].map((c, j) => c * (1 - w) + points[k + 1][j] * w)), i * 3);
   }
   return rgb;
 }
@@ -60,7 +60,8 @@ export class TensionScale {
     if (this.diverging) {
       high = Math.max(-low, high);
       low = -high;
-    } else if (high - low < 1e-4 * high) low = 0;
+      // From nothing, where the least is next to nothing or where all carry the same.
+    } else if (low < 0.05 * high || high - low < 1e-4 * high) low = 0;
     this.low = low;
     this.high = high;
     this.rgb = table(maps[theme][this.diverging ? 'diverging' : 'sequential']);

@@ -19,8 +19,13 @@ const palettes = {
   dark: ['#5ab0f2', '#ff8f52', '#3ecb9c', '#ee93c6', '#f2c14b', '#a5d8ff', '#b6a3f2', '#a9b4c2'],
 };
 const dashes = [null, [6, 3], [2, 2], [9, 3, 2, 3]];
+const swatches = ['100%', '5px 7px', '2px 4px', '6px 8px'];
 
 export function seriesStyle(index) {
   const palette = palettes[theme().name];
-  return { colour: palette[index % palette.length], dash: dashes[Math.floor(index / palette.length) % dashes.length] };
+  const colour = palette[index % palette.length];
+  const turn = Math.floor(index / palette.length) % dashes.length;
+  const [on, period] = swatches[turn].split(' ');
+  const swatch = period ? `repeating-linear-gradient(to right, ${colour} 0 ${on}, transparent ${on} ${period})` : colour;
+  return { colour, dash: dashes[turn], swatch };
 }
