@@ -106,7 +106,7 @@ test('a motion plays, is scrubbed by keys and by its plots', async () => {
       await page.mouse.move(pane.x + pane.width * x, pane.y + pane.height * 0.5);
       named = await page.$eval('.tooltip', (t) => (t.hidden ? '' : t.textContent));
     }
-    assert.match(named, /(bar|base|top|side) \d/);
+    assert.match(named, /^((base|top|side) \d ?tension(slack|[\d.]+\u202fN)|bar \d)length[\d.]+\u202fm$/);
     await seek(page, 0.9);
     await save(page, 'motion');
   });
