@@ -43,6 +43,7 @@ export function roundDown(value) {
 
 /** Decimals that show a clock running to `end` at a steady width. */
 export function clockDigits(end) {
-  const decimals = Math.min(6, Math.max(2, 3 - Math.floor(Math.log10(Math.max(end, 1e-9)))));
+  if (!(end > 0)) return 3;
+  const decimals = Math.min(6, Math.max(2, 3 - Math.floor(Math.log10(end))));
   return end >= 1000 ? 1 : decimals;
 }
