@@ -1,0 +1,92 @@
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshLambertMaterial, SRGBColorSpace } from 'three';
+import { Balls, Tubes } from './tubes.js';
+import { CableLines } from './cable-lines.js';
+
+/** How strongly a structure is drawn: the thing itself, a lesser one beside it, or a ghost beneath it. */
+export const looks = {
+  solid: { opacity: 1, cableWidth: 2.4, ghost: false },
+  small: { opacity: 1, cableWidth: 2, ghost: false },
+  faint: { opacity: 0.36, cableWidth: 1.5, ghost: false },
+  ghost: { opacity: 0.2, cableWidth: 1.2, ghost: true },
+};
+
+/** Radii as drawn: the true one, but never so thin that it could be taken for a cable. */
+export function drawnRadii(assembly, size) {
+  const length = ({ vertices: v }) => (v.length > 1 ? Math.hypot(...v[0].map((x, i) => x - v[1][i])) : Infinity);
+  return assembly.members.map((member) => {
+    const least = size * { bar: 0.0065, body: 0.0035, particle: 0.012 }[member.kind];
+    return Math.max(member.radius, Math.min(least, 0.03 * length(member)));
+  });
+}
+
+function tableInLinear(scale) {
+  const out = new Float32Array(scale.rgb.length);
+  const colour = new Color();
+  for (let i = 0; i < out.length; i += 3) {
+    colour.setRGB(scale.rgb[i], scale.rgb[i + 1], scale.rgb[i + 2], SRGBColorSpace).toArray(out, i);
+  }
+  return out;
+}
+
+/** Three.js objects for one structure in one configuration at a time. */
+export class Structure {
+  constructor(assembly, cableCount, radii, size, look) {
+    this.assembly = assembly;
+    this.look = look;
+    this.group = new Group();
+    const edges = assembly.edges.map((e) => ({ ...e, radius: radii[e.member] }));
+    this.tubes = new Tubes(edges, look);
+    const ends = new Set(edges.flatMap((e) => [e.a, e.b]));
+    const balls = [];
+    for (let v = 0; v < assembly.vertexCount; v++) {
+      const m = assembly.owner[v];
+      if (ends.has(v) || assembly.members[m].kind === 'particle') balls.push({ vertex: v, radius: radii[m] });
+    }
+    this.balls = new Balls(balls, look);
+    this.cables = new CableLines(cableCount, { ...look, dash: size * 0.014 });
+    this.group.add(this.tubes.mesh, this.balls.mesh, ...this.cables.objects);
+    if (assembly.faces.length) this.group.add(this.makeFaces());
+    // A ghost goes first, so that what stands before it covers it.
+    if (look.opacity < 1) this.group.traverse((object) => (object.renderOrder = -1));
+  }
+
+  makeFaces() {
+    const geometry = new BufferGeometry();
+    this.facePoints = new BufferAttribute(new Float32Array(this.assembly.vertexCount * 3), 3);
+    geometry.setAttribute('position', this.facePoints);
+    geometry.setIndex(this.assembly.faces.flatMap((f) => f.corners));
+    this.faceMaterial = new MeshLambertMaterial({
+      side: DoubleSide, flatShading: true, transparent: true, depthWrite: false, opacity: 0.3 * this.look.opacity,
+    });
+    const mesh = new Mesh(geometry, this.faceMaterial);
+    mesh.frustumCulled = false;
+    mesh.renderOrder = 1;
+    return mesh;
+  }
+
+  paint(theme, scale) {
+    const { assembly, look } = this;
+    this.scale = scale;
+    this.rgb = tableInLinear(scale);
+    const of = (kind) => new Color(theme.colour(look.ghost ? 'ghost' : kind));
+    const colours = { bar: of('bar'), body: of('body'), particle: of('particle') };
+    this.tubes.edges.forEach((e, i) => this.tubes.mesh.setColorAt(i, colours[assembly.members[e.member].kind]));
+    this.balls.balls.forEach((b, i) => this.balls.mesh.setColorAt(i, colours[assembly.members[assembly.owner[b.vertex]].kind]));
+    for (const mesh of [this.tubes.mesh, this.balls.mesh]) if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
+    this.faceMaterial?.color.set(theme.colour(look.ghost ? 'ghost' : 'face'));
+    this.cables.slackMaterial.color.set(theme.colour('slack'));
+    if (look.ghost) this.cables.tautMaterial.color.set(theme.colour('ghost'));
+    if (this.state) this.show(this.state);
+  }
+
+  show(state) {
+    this.state = state;
+    this.tubes.place(state.vertices);
+    this.balls.place(state.vertices);
+    this.cables.place(state, this.scale, this.look.ghost ? null : this.rgb);
+    if (this.facePoints) {
+      this.facePoints.array.set(state.vertices);
+      this.facePoints.needsUpdate = true;
+    }
+  }
+}
