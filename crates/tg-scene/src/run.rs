@@ -16,8 +16,8 @@ pub struct RunSection {
     pub duration: Quantity,
     /// Time step \[s\]. Either this or `accuracy`.
     pub step: Option<Quantity>,
-    /// Position error \[m\] that is aimed at instead: the step is chosen by comparing trial runs over the first part of the
-    /// duration.
+    /// Position error \[m\] that is aimed at instead: the step is chosen by comparing trial runs with
+    /// coarser ones.
     pub accuracy: Option<Quantity>,
     /// Time stepping; the symplectic scheme if not given.
     pub scheme: Option<Scheme>,

@@ -82,7 +82,8 @@ fn simulate<const D: usize>(
         let state = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
         (state.map_err(Failure::analysis)?, step, writer)
     };
-    let mut recording = Recording::new(writer, channels, &painter, settings, step, state.t);
+    let resumed = arguments.resume.then_some(state.t);
+    let mut recording = Recording::new(writer, channels, &painter, settings, (step, resumed));
     let outcome = Integration::new(step, settings.duration)
         .observe(&mut recording)
         .cancel_on(&INTERRUPTED)

@@ -1,7 +1,7 @@
 //! A step for an accuracy.
 //!
-//! Trial runs over the first part of the motion with steps h and h/2: the schemes are of second order, so that the positions of the
-//! first are off by about 4/3 of their difference, and an error ε wants the step h √(ε / error).
+//! Trial runs over the whole motion, since errors grow, with steps h and h/2: the schemes are of second order, so that the
+//! positions of the first are off by about 4/3 of their difference, and an error ε wants the step h √(ε / error).
 
 use serde_json::{Value, json};
 use tg_integrate::{Run as Integration, State, StepReport};
@@ -10,10 +10,8 @@ use tg_scene::{RunSettings, Structure};
 use super::stepper;
 use crate::answer::Failure;
 
-/// Part of the duration that is tried.
-const PART: f64 = 0.1;
 /// Steps of the first trial.
-const FIRST: f64 = 32.0;
+const FIRST: f64 = 64.0;
 /// Times at which positions are compared.
 const LOOKS: f64 = 16.0;
 /// Steps that are not tried any more.
@@ -27,7 +25,7 @@ pub(super) fn step<const D: usize>(
     settings: &RunSettings,
     accuracy: f64,
 ) -> Result<(f64, Value), Failure> {
-    let end = PART * settings.duration;
+    let end = settings.duration;
     let mut trials = Vec::new();
     let mut steps = FIRST;
     let mut coarse = trial(structure, settings, end, steps);
@@ -43,7 +41,7 @@ pub(super) fn step<const D: usize>(
             // Beyond twice what was tried the order of the scheme is no longer seen.
             let step = end / steps * factor.clamp(SAFETY, 2.0);
             let whole = settings.duration / (settings.duration / step).ceil();
-            let evidence = json!({ "trials_until": end, "trials": trials });
+            let evidence = json!({ "trials": trials });
             return Ok((whole, evidence));
         }
         let wanted = if error.is_finite() { (error / accuracy).sqrt() } else { 2.0 };

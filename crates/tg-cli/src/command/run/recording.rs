@@ -36,10 +36,10 @@ struct Due {
 }
 
 impl Due {
-    /// From time `t` on, which itself has had its turn unless it is the start.
-    fn new(interval: f64, step: f64, t: f64) -> Self {
+    /// From the start, or after the time up to which everything has had its turn.
+    fn new(interval: f64, step: f64, after: Option<f64>) -> Self {
         let slack = ROUNDING * step;
-        let next = if t == 0.0 { 0.0 } else { ((t + slack) / interval).floor() + 1.0 };
+        let next = after.map_or(0.0, |t| ((t + slack) / interval).floor() + 1.0);
         Self { interval, slack, next }
     }
 
@@ -74,17 +74,16 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
         channels: Channels<'s, D>,
         painter: &'p Painter<'s, D>,
         settings: &RunSettings,
-        step: f64,
-        t: f64,
+        (step, resumed): (f64, Option<f64>),
     ) -> Self {
         Self {
             writer,
             channels,
             painter,
-            rows: Due::new(settings.every.unwrap_or(step), step, t),
-            frames: Due::new((1.0 / settings.frame_rate).max(step), step, t),
+            rows: Due::new(settings.every.unwrap_or(step), step, resumed),
+            frames: Due::new((1.0 / settings.frame_rate).max(step), step, resumed),
             step,
-            resumed: (t > 0.0).then_some(t),
+            resumed,
             last_checkpoint: None,
             progress: bar(1000, "{wide_bar} {percent}% of the motion, {eta} left"),
             duration: settings.duration,
