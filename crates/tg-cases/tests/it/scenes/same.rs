@@ -21,7 +21,9 @@ pub(super) struct Pair<'m, const D: usize> {
 fn random(seed: u64, count: usize) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x2545_f491_4f6c_dd1d) | 1;
     let mut next = || {
-        (state ^= state << 13, state ^= state >> 7, state ^= state << 17);
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
     (0..count).map(|_| next()).collect()
