@@ -98,26 +98,21 @@ fn kind(schema: &Value) -> String {
         return link(target);
     }
     if let Some(Value::Array(options)) = schema.get("anyOf") {
-        let options: Vec<String> = options.iter().map(kind).filter(|kind| kind != "nothing").collect();
+        let options: Vec<String> = options.iter().map(kind).filter(|kind| !kind.is_empty()).collect();
         return options.join(" or ");
     }
     let of = |key: &str| schema.get(key).map(kind);
-    match schema.get("type") {
-        Some(Value::String(word)) if word == "array" => {
-            format!("list of {}", of("items").unwrap_or_else(|| "values".into()))
-        }
-        Some(Value::String(word)) if word == "object" => match of("additionalProperties") {
-            Some(part) => format!("named: {part}"),
-            None => "table".into(),
-        },
-        Some(Value::String(word)) => plain(word).into(),
-        Some(Value::Array(words)) => {
-            let words: Vec<&str> =
-                words.iter().filter_map(Value::as_str).map(plain).filter(|w| *w != "nothing").collect();
-            words.join(" or ")
-        }
-        _ => "value".into(),
-    }
+    let words = match schema.get("type") {
+        Some(Value::String(word)) => vec![word.as_str()],
+        Some(Value::Array(words)) => words.iter().filter_map(Value::as_str).collect(),
+        _ => return "value".into(),
+    };
+    let word = |word: &&str| match (*word, of("items"), of("additionalProperties")) {
+        ("array", Some(part), _) => format!("list of {part}"),
+        ("object", _, Some(part)) => format!("named: {part}"),
+        (word, _, _) => plain(word).into(),
+    };
+    words.iter().filter(|word| **word != "null").map(word).collect::<Vec<_>>().join(" or ")
 }
 
 fn plain(word: &str) -> &str {
@@ -125,8 +120,8 @@ fn plain(word: &str) -> &str {
         "string" => "text",
         "integer" => "whole number",
         "boolean" => "true or false",
-        "null" => "nothing",
         "array" => "list",
+        "object" => "table",
         other => other,
     }
 }

@@ -55,7 +55,7 @@ fn what_is_no_scene_or_no_result_is_bad_input() {
 
 #[test]
 fn an_infeasible_request_fails_with_code_one() {
-    let scene = scene("tower.toml");
+    let scene = scene("deployable.toml");
     let output =
         run(&["statics", &scene, "--inverse", "--least-tension", "1", "--greatest-tension", "1.001"]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));

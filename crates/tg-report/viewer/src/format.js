@@ -18,17 +18,25 @@ export function number(value, digits = 3) {
   return trueMinus(value.toFixed(Math.max(0, digits - 1 - exponent)));
 }
 
+/** Decimals that a multiple of the spacing needs: one for 2.5. */
+function decimalsOf(spacing) {
+  for (let decimals = 0; decimals < 8; decimals++) {
+    const scaled = spacing * 10 ** decimals;
+    if (scaled > 0.5 && Math.abs(scaled - Math.round(scaled)) < 1e-6 * scaled) return decimals;
+  }
+  return 8;
+}
+
 /** A tick: as many decimals as its spacing needs. */
 export function tick(value, spacing, largest) {
   if (Math.abs(value) < spacing * 1e-6) return '0';
   const exponent = Math.floor(Math.log10(largest) + 1e-9);
   if (exponent < -3 || exponent > 4) {
     const mantissa = value / 10 ** exponent;
-    const decimals = Math.min(4, Math.max(0, exponent - Math.floor(Math.log10(spacing) + 1e-9)));
+    const decimals = Math.min(4, decimalsOf(spacing / 10 ** exponent));
     return `${trueMinus(mantissa.toFixed(decimals))}·${raise(exponent)}`;
   }
-  const decimals = Math.max(0, -Math.floor(Math.log10(spacing) + 1e-9));
-  return trueMinus(value.toFixed(Math.min(decimals, 8)));
+  return trueMinus(value.toFixed(decimalsOf(spacing)));
 }
 
 export const quantity = (value, unit, digits) => (unit ? `${number(value, digits)}\u202f${unit}` : number(value, digits));
