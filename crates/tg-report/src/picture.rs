@@ -35,6 +35,8 @@ pub struct Picture {
     pub size: [f64; 2],
     /// A line above; empty for none.
     pub title: String,
+    /// What stands beneath the pictures of a strip; those without get their time.
+    pub captions: Vec<String>,
     /// Tensions of the first and the last colour \[N\]; none takes them from the frames.
     pub tensions: Option<[f64; 2]>,
 }
@@ -42,7 +44,7 @@ pub struct Picture {
 impl Default for Picture {
     fn default() -> Self {
         let projection = Projection::Front;
-        Self { projection, size: [800.0, 600.0], title: String::new(), tensions: None }
+        Self { projection, size: [800.0, 600.0], title: String::new(), captions: Vec::new(), tensions: None }
     }
 }
 
@@ -153,7 +155,9 @@ impl Picture {
             sheet.structure(canvas, outline, frame, tensions.as_ref());
             if times {
                 let below = [centre[0], centre[1] + 0.5 * extent.size()[1] * grid.scale + LINE];
-                canvas.text(Text::new(below, TIME, Anchor::Middle, &format!("{} s", rounded(frame.time))));
+                let time = || format!("{} s", rounded(frame.time));
+                let caption = self.captions.get(k).cloned().unwrap_or_else(time);
+                canvas.text(Text::new(below, TIME, Anchor::Middle, &caption));
             }
         }
         legend::length(canvas, [MARGIN, height - MARGIN], grid.scale, 0.25 * space[0]);

@@ -19,6 +19,9 @@ with_parts! {
     #[derive(Clone, Debug, Deserialize, JsonSchema)]
     #[serde(deny_unknown_fields)]
     pub struct Scene {
+        /// Where editors find the schema of this file; not used otherwise.
+        #[serde(rename = "$schema")]
+        pub schema: Option<String>,
         /// Version of the format: 1.
         pub version: Spanned<u32>,
         /// One line for headings.

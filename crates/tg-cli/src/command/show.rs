@@ -101,16 +101,19 @@ fn curves(results: &Results, what: PlotWhat) -> Result<Option<Plot>, Failure> {
 fn snapshots(results: &Results, png: bool) -> Result<Vec<u8>, Failure> {
     let nothing = || Failure::Usage("these results hold no pictures of the structure".into());
     let outline = results.manifest.outline.as_ref().ok_or_else(nothing)?;
-    let mut frames = results.frames()?;
-    if frames.is_empty() {
-        frames = results.shapes()?.into_iter().map(|shape| shape.frame).collect();
-    }
-    let frames = evenly(&frames, SNAPSHOTS);
+    let shapes = evenly(&results.shapes()?, SNAPSHOTS);
+    let captions = shapes.iter().map(|shape| shape.label.clone()).collect();
+    let frames = if shapes.is_empty() {
+        evenly(&results.frames()?, SNAPSHOTS)
+    } else {
+        shapes.into_iter().map(|shape| shape.frame).collect()
+    };
     let projection = if outline.dimension == 2 { Projection::Front } else { Projection::Isometric };
     let picture = Picture {
         projection,
         size: [SIZE[0] * 1.5, SIZE[1]],
         title: results.manifest.title.clone(),
+        captions,
         ..Picture::default()
     };
     Ok(if png {

@@ -1,4 +1,5 @@
 //! The program as its users meet it: a process with arguments, an exit code, stdout and stderr.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod failures;
 mod generated;

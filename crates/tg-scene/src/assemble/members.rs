@@ -325,8 +325,9 @@ fn body_outline<const D: usize>(
     if let Some(solid) = solid {
         return Ok(solid.outline.clone());
     }
-    // The origin is drawn only if nothing else is.
-    let own: Vec<usize> = if points.len() > 1 { (1..points.len()).collect() } else { vec![0] };
+    // The origin helps to draw a figure where there are few other points.
+    let own: Vec<usize> =
+        if points.len() > 3 { (1..points.len()).collect() } else { (0..points.len()).collect() };
     match own.as_slice() {
         [_, _] | [_, _, _] => outline.add_polygon(&own),
         &[a, b, c, d] if D == 3 => {
