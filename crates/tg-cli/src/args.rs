@@ -110,18 +110,18 @@ pub(crate) struct Statics {
     /// Inverse statics: the rest lengths that hold the shape as built, as a cutting list.
     #[arg(long)]
     pub(crate) inverse: bool,
-    /// In which unknowns the solution of inverse statics is the smallest.
+    /// In which unknowns inverse statics chooses among its solutions.
     #[arg(long, value_enum, default_value_t = UnknownName::RestLength, requires = "inverse")]
     pub(crate) unknown: UnknownName,
+    /// Which solution it chooses.
+    #[arg(long, value_enum, default_value_t = GoalName::Closest, requires = "inverse")]
+    pub(crate) goal: GoalName,
     /// Least tension of every cable [N].
     #[arg(long, value_name = "N", requires = "inverse", allow_negative_numbers = true)]
     pub(crate) least_tension: Option<f64>,
     /// Greatest tension of every cable [N].
     #[arg(long, value_name = "N", requires = "inverse")]
     pub(crate) greatest_tension: Option<f64>,
-    /// Choose the solution with the least sum of tensions; needs a least tension.
-    #[arg(long, requires = "least_tension")]
-    pub(crate) least_total: bool,
     /// Cables of one group have equal unknowns.
     #[arg(long, requires = "inverse")]
     pub(crate) tie_groups: bool,
@@ -141,6 +141,17 @@ pub(crate) enum UnknownName {
     ForceDensity,
     /// Rest lengths [m].
     RestLength,
+}
+
+/// Choices of inverse statics.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum GoalName {
+    /// Closest to the unknowns of the scene: least squares of the changes.
+    Closest,
+    /// The least sum of squares of the unknowns.
+    MinimumNorm,
+    /// The least sum of tensions; needs --least-tension.
+    LeastTotalTension,
 }
 
 /// `tg modes`

@@ -1,6 +1,7 @@
 //! A scene as a model. Two passes over all copies of all arrays: first what has a place of its own, then what is attached.
 
 mod attached;
+mod bodies;
 mod cables;
 mod members;
 

@@ -65,7 +65,7 @@ pub struct Body {
     #[serde(alias = "nodes")]
     #[schemars(extend("x-aliases" = ["nodes"]))]
     pub basis: Option<Spanned<Vec<PlaceRef>>>,
-    /// For pictures: faces by names of points. Without them, the shape or the hull of the points is drawn.
+    /// For pictures: faces by names of points. Without them, the shape is drawn, or lines between the points.
     pub faces: Option<Vec<Vec<Spanned<String>>>>,
     /// Velocity of its mass centre at t = 0 \[m/s\].
     pub velocity: Option<Vector>,
@@ -128,13 +128,19 @@ pub enum Inertia {
 /// Types of natural coordinates of a body (Table 1 of the framework paper): basic points, then base vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "UPPERCASE")]
-#[allow(missing_docs)]
 pub enum CoordTypeName {
+    /// In space, one point and three vectors.
     Ruvw,
+    /// In space, two points and two vectors.
     Rrvw,
+    /// In space, three points and one vector.
     Rrrw,
+    /// In space, four points.
     Rrrr,
+    /// In the plane, one point and two vectors.
     Ruv,
+    /// In the plane, two points and one vector.
     Rrv,
+    /// In the plane, three points.
     Rrr,
 }

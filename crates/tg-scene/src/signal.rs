@@ -93,8 +93,8 @@ pub struct CsvFile {
     pub value: Spanned<String>,
     /// Factor of the values, 1 if not given: 9.81 makes m/s² of g, 0.001 makes metres of millimetres.
     pub scale: Option<Quantity>,
-    /// What the values are: `value` (the default), or `acceleration`: then the signal is the displacement \[m\] from rest that
-    /// has this acceleration \[m/s²\], integrated twice by the trapezoidal rule and freed of its linear trend in velocity.
+    /// What the values are: `value` (the default), or `acceleration`: then the signal is the displacement \[m\] from rest whose
+    /// acceleration \[m/s²\] goes linearly through the samples, less the constant that would leave the ground moving at the end.
     pub kind: Option<RecordKind>,
 }
 

@@ -13,7 +13,7 @@ use tg_statics::{
 
 use super::with_structure;
 use crate::answer::{Answer, Failure};
-use crate::args::{Statics, UnknownName};
+use crate::args::{GoalName, Statics, UnknownName};
 use crate::loading::{Loaded, remarks};
 use crate::picture::Painter;
 use crate::results::{manifest, told, write};
@@ -101,9 +101,11 @@ fn inverse<const D: usize>(
         let least = arguments.least_tension.unwrap_or(f64::NEG_INFINITY);
         request = request.tension_between(least, arguments.greatest_tension.unwrap_or(f64::INFINITY));
     }
-    if arguments.least_total {
-        request = request.least_total_tension();
-    }
+    request = match arguments.goal {
+        GoalName::Closest => request.closest_to(&present(structure, arguments.unknown, q, u)),
+        GoalName::MinimumNorm => request,
+        GoalName::LeastTotalTension => request.least_total_tension(),
+    };
     if let Some(tolerance) = arguments.rank_tolerance {
         request = request.rank_tolerance(tolerance);
     }
@@ -157,6 +159,18 @@ fn inverse<const D: usize>(
     document["rank"] = json!(found.set.rank.rank);
     document["freedom_of_choice"] = json!(free);
     Ok((q.to_vec(), found.inputs(u)))
+}
+
+/// The unknowns as the scene has them, one for each cable.
+fn present<const D: usize>(structure: &Structure<D>, unknown: UnknownName, q: &[f64], u: &[f64]) -> Vec<f64> {
+    let (model, rest) = (&structure.model, vec![0.0; q.len()]);
+    let cables = model.cables().map(|cable| model.cable(cable, q, &rest, u));
+    let value = |cable: tg_model::CableState| match unknown {
+        UnknownName::Tension => cable.tension,
+        UnknownName::ForceDensity => cable.tension / cable.length,
+        UnknownName::RestLength => cable.rest,
+    };
+    cables.map(value).collect()
 }
 
 /// Cables of each named group.
