@@ -37,30 +37,79 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Read a scene, build its model and count what it holds.
+    ///
+    /// A mistake is shown in its line with what would mend it.
+    #[command(after_help = "Example:\n  tg check scenes/prism_mast.toml --set stages=8")]
     Check(Check),
     /// Equilibrium: is this shape one, which rest lengths hold it, which shape holds itself.
+    ///
+    /// Without options: the residual force of the shape as built, tensions, axial forces in bars and reactions; its states of
+    /// self-stress, mechanisms and stability. A structure from elsewhere is seldom in equilibrium as written: --relax finds the
+    /// shape that its rest lengths give, --inverse the rest lengths that its shape needs.
+    #[command(after_help = "\
+Examples:
+  tg statics scenes/icosahedron.toml                                   is it prestressed, is it stable
+  tg statics scenes/icosahedron.toml --inverse --least-tension 50      a cutting list
+  tg statics scenes/antiprism_force.toml --relax -o loaded             the shape under load, to look at")]
     Statics(Statics),
     /// Natural frequencies and mode shapes about an equilibrium.
+    ///
+    /// The modes are those of the shape as built if it is an equilibrium, else of the equilibrium that is found from it. An
+    /// unstable equilibrium has motions that grow; a mechanism without stiffness has frequency zero.
+    #[command(after_help = "Example:\n  tg modes scenes/prism_mast.toml -n 10 --damped -o mast-modes")]
     Modes(Modes),
     /// Simulate the motion and write a results folder with an HTML view.
+    ///
+    /// Everything not given here is taken from the scene's [run] section. Ctrl-C stops at the next step and keeps what there
+    /// is; --resume goes on from there, bit for bit. The trajectory is a folder of Parquet files:
+    /// pandas.read_parquet("tower-run/trajectory").
+    #[command(after_help = "\
+Examples:
+  tg run scenes/tower.toml                                   into tower-run
+  tg run scenes/tower.toml --set amplitude=0.005 -o gentle   a weaker earthquake
+  tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen")]
     Run(Run),
     /// All equilibria of a small structure, each proved, with their stability.
+    ///
+    /// Every spring counts as a two-way one; the answer says at which equilibria a cable that only pulls would be short. The
+    /// work grows quickly with the structure: what would take too many paths is refused with their number.
+    #[command(after_help = "Example:\n  tg equilibria scenes/mechanism.toml --set free_2=0 -o shapes")]
     Equilibria(Equilibria),
     /// Frequencies or equilibria against a parameter of the scene.
+    #[command(after_help = "\
+Examples:
+  tg sweep scenes/tower_modal.toml -p ratio --from 0.86 --to 1 -o prestress
+  tg plot prestress --what sweep
+  tg sweep scenes/mechanism.toml -p \"spring 1\" --from 6 --to 14 --what equilibria    with folds")]
     Sweep(Sweep),
     /// Make the HTML view of a results folder, or of a scene as built.
+    ///
+    /// One file that needs no network: 3D motion, modes or equilibria, and linked plots.
+    #[command(after_help = "Example:\n  tg view scenes/icosahedron.toml -o icosahedron.html")]
     View(View),
     /// Draw a plot of a results folder as SVG or PNG.
+    #[command(after_help = "Example:\n  tg plot tower-run --what slack -o slack.png")]
     Plot(Plot),
     /// Write results in forms that other programs read.
+    #[command(after_help = "Example:\n  tg export tower-run --to vtk -o tower.pvd")]
     Export(Export),
     /// Turn files of other programs into a scene.
+    ///
+    /// Reads nodes/bars/cables CSV triples (a folder or its nodes.csv), YAML structures of the NASA Tensegrity Robotics
+    /// Toolkit, and structures in neutral JSON. Numbers are taken as they are unless scaled.
+    #[command(after_help = "\
+Example:
+  tg import prism.yaml --length-scale 0.1 --force-scale 0.1 -o prism.toml     decimetres to metres
+  tg statics prism.toml --relax")]
     Import(Import),
     /// Print the JSON Schema of scene files, for editors, or the reference page made from it.
+    #[command(after_help = "Example:\n  tg schema > scene.schema.json")]
     Schema(Schema),
     /// Print completions for a shell.
+    #[command(after_help = "Example:\n  tg completions bash > ~/.local/share/bash-completion/completions/tg")]
     Completions(Completions),
     /// Print the manual page, or write the pages of all commands to a folder.
+    #[command(after_help = "Example:\n  tg man -o ~/.local/share/man/man1")]
     Man(Man),
 }
 
@@ -94,9 +143,6 @@ pub(crate) struct Check {
 }
 
 /// `tg statics`
-///
-/// Without options: is the shape as built an equilibrium, with which tensions, forces in bars and reactions; its states of
-/// self-stress, mechanisms and stability.
 #[derive(Debug, Args)]
 pub(crate) struct Statics {
     #[command(flatten)]
@@ -155,8 +201,6 @@ pub(crate) enum GoalName {
 }
 
 /// `tg modes`
-///
-/// The modes are those of the shape as built if it is an equilibrium, else of the equilibrium that is found from it.
 #[derive(Debug, Args)]
 pub(crate) struct Modes {
     #[command(flatten)]
@@ -175,9 +219,6 @@ pub(crate) struct Modes {
 }
 
 /// `tg run`
-///
-/// Everything not given here is taken from the scene's [run] section. Ctrl-C stops at the next step and keeps what there is;
-/// --resume goes on from there, bit for bit.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]
@@ -206,8 +247,6 @@ pub(crate) struct Run {
 }
 
 /// `tg equilibria`
-///
-/// Every spring counts as a two-way one; the report says at which equilibria a cable that only pulls would be short.
 #[derive(Debug, Args)]
 pub(crate) struct Equilibria {
     #[command(flatten)]
@@ -334,9 +373,6 @@ pub(crate) enum ExportForm {
 }
 
 /// `tg import`
-///
-/// Reads nodes/bars/cables CSV triples (a folder or its nodes.csv), YAML structures of the NASA Tensegrity Robotics Toolkit, and
-/// structures in neutral JSON. Imported structures are seldom in equilibrium: go on with `tg statics --relax`.
 #[derive(Debug, Args)]
 pub(crate) struct Import {
     /// What to import.

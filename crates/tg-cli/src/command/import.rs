@@ -1,7 +1,7 @@
 //! `tg import`: files of other programs into scenes.
 
 use serde_json::json;
-use tg_scene::{ImportOptions, import_with};
+use tg_scene::{ImportError, ImportOptions, SceneError, import_with};
 
 use crate::answer::{Answer, Failure};
 use crate::args::Import;
@@ -13,8 +13,10 @@ pub(crate) fn import(arguments: &Import) -> Result<Answer, Failure> {
         mass_scale: arguments.mass_scale,
         force_scale: arguments.force_scale,
     };
-    let imported =
-        import_with(&arguments.path, &options).map_err(|error| Failure::Usage(error.to_string()))?;
+    let imported = import_with(&arguments.path, &options).map_err(|error| match error {
+        ImportError::Mistake(mistake) => Failure::Scene(SceneError::Mistake(mistake)),
+        other => Failure::Usage(other.to_string()),
+    })?;
     let text = match &arguments.output {
         Some(path) => {
             write_file(path, imported.toml.as_bytes())?;

@@ -144,8 +144,7 @@ where
     let mut manifest = manifest(Kind::Sweep, loaded, Painter::new(structure)?.outline(), settings);
     manifest.channels = channels;
     let folder = write(&arguments.output, manifest, &document, |writer| {
-        rows.iter().try_for_each(|row| writer.row(row))?;
-        Ok(writer.document("plots", &[plot])?)
+        Ok(rows.iter().try_for_each(|row| writer.row(row))?)
     })?;
     text += &told(folder.as_ref());
     let mut answer = Answer::new(document, text).warn(remarks(structure));

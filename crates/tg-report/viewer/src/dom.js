@@ -2,13 +2,11 @@
 export function h(tag, props = {}, ...children) {
   const element = document.createElement(tag);
   for (const [key, value] of Object.entries(props)) {
-    // The states of ARIA are words, also when false.
-    if (key.startsWith('aria-')) {
-      if (value !== null && value !== undefined) element.setAttribute(key, value);
-      continue;
-    }
-    if (value === false || value === null || value === undefined) continue;
-    if (key.startsWith('on')) element.addEventListener(key.slice(2), value);
+    if (value === null || value === undefined) continue;
+    // States of ARIA are words: "false" is said, not left out.
+    if (key.startsWith('aria-')) element.setAttribute(key, value);
+    else if (value === false) continue;
+    else if (key.startsWith('on')) element.addEventListener(key.slice(2), value);
     else if (key === 'class') element.className = value;
     else element.setAttribute(key, value === true ? '' : value);
   }

@@ -2,10 +2,10 @@ import { Vector3 } from 'three';
 
 /**
  * Where the camera must stand, looking along -view, to have all points within the frame: exact for each side of the
- * frame, with the target moved until what is seen sits in the middle. The margins are the whole frame over its used part.
- * @returns {{target: Vector3, distance: number, flatTarget: Vector3, halfHeight: number, top: Vector3}}
+ * frame, with the target moved until what is seen sits in the middle.
+ * @returns {{target: Vector3, distance: number, halfHeight: number}}
  */
-export function fit(points, view, up, aspect, fovDegrees, margin) {
+export function fit(points, view, up, aspect, fovDegrees, margin = 1.12) {
   const right = new Vector3().crossVectors(up, view).normalize();
   const top = new Vector3().crossVectors(view, right);
   const n = points.length / 3;
@@ -14,9 +14,8 @@ export function fit(points, view, up, aspect, fovDegrees, margin) {
   const middle = (a) => (a.reduce((m, v) => Math.min(m, v), Infinity) + a.reduce((m, v) => Math.max(m, v), -Infinity)) / 2;
   let [cx, cy] = [middle(xs), middle(ys)];
   const cz = middle(zs);
-  const half = Math.tan((fovDegrees * Math.PI) / 360);
-  const slopeY = half / margin.y;
-  const slopeX = (half * aspect) / margin.x;
+  const slopeY = Math.tan((fovDegrees * Math.PI) / 360) / margin;
+  const slopeX = slopeY * aspect;
   let distance = 0;
   for (let round = 0; round < 4; round++) {
     distance = 1e-9;
@@ -36,7 +35,7 @@ export function fit(points, view, up, aspect, fovDegrees, margin) {
   }
   let halfHeight = 1e-9;
   const [fx, fy] = [middle(xs), middle(ys)];
-  for (let i = 0; i < n; i++) halfHeight = Math.max(halfHeight, (Math.abs(xs[i] - fx) * margin.x) / aspect, Math.abs(ys[i] - fy) * margin.y);
+  for (let i = 0; i < n; i++) halfHeight = Math.max(halfHeight, (Math.abs(xs[i] - fx) * margin) / aspect, Math.abs(ys[i] - fy) * margin);
   const target = (x, y) => new Vector3().addScaledVector(right, x).addScaledVector(top, y).addScaledVector(view, cz);
-  return { target: target(cx, cy), flatTarget: target(fx, fy), distance, halfHeight, top };
+  return { target: target(cx, cy), flatTarget: target(fx, fy), distance, halfHeight };
 }

@@ -18,13 +18,11 @@ export function number(value, digits = 3) {
   return trueMinus(value.toFixed(Math.max(0, digits - 1 - exponent)));
 }
 
-/** Decimals that a multiple of the spacing needs: one for 2.5. */
+/** Decimals that write a spacing such as 0.025 exactly. */
 function decimalsOf(spacing) {
-  for (let decimals = 0; decimals < 8; decimals++) {
-    const scaled = spacing * 10 ** decimals;
-    if (scaled > 0.5 && Math.abs(scaled - Math.round(scaled)) < 1e-6 * scaled) return decimals;
-  }
-  return 8;
+  let decimals = Math.max(0, -Math.floor(Math.log10(spacing) + 1e-9));
+  while (decimals < 8 && Math.abs(spacing * 10 ** decimals - Math.round(spacing * 10 ** decimals)) > 1e-6) decimals++;
+  return decimals;
 }
 
 /** A tick: as many decimals as its spacing needs. */
@@ -51,7 +49,6 @@ export function roundDown(value) {
 
 /** Decimals that show a clock running to `end` at a steady width. */
 export function clockDigits(end) {
-  if (!(end > 0)) return 3;
-  const decimals = Math.min(6, Math.max(2, 3 - Math.floor(Math.log10(end))));
+  const decimals = Math.min(6, Math.max(2, 3 - Math.floor(Math.log10(Math.max(end, 1e-9)))));
   return end >= 1000 ? 1 : decimals;
 }

@@ -28,7 +28,8 @@ export class Ground {
       const p = new Vector3().addScaledVector(e1, u).addScaledVector(e2, v).addScaledVector(normal, height);
       positions.push(p.x, p.y, p.z);
       const r = Math.hypot(u - centre[0], v - centre[1]) / radius;
-      alphas.push(Math.max(0, 1 - r * r) * (plane ? 0.55 : 0.9));
+      // Behind a plane structure it is seen from the front, all of it at once: there it must be quieter.
+      alphas.push(Math.max(0, 1 - r * r) * (plane ? 0.55 : 1));
     };
     const range = (c) => [Math.floor((c - radius) / this.spacing), Math.ceil((c + radius) / this.spacing)];
     const [i0, i1] = range(centre[0]);

@@ -1,9 +1,5 @@
-/** Lightness, chroma and hue in degrees as a point of OKLab, where colours mix evenly and without strange hues. */
-export function oklch(lightness, chroma, hue) {
-  return [lightness, chroma * Math.cos((hue * Math.PI) / 180), chroma * Math.sin((hue * Math.PI) / 180)];
-}
-
-export function oklabToSrgb([lightness, a, b]) {
+/** OKLab to sRGB: colour maps with even steps of lightness are made in this space. */
+export function oklabToSrgb(lightness, a, b) {
   const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const m = (lightness - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const s = (lightness - 0.0894841775 * a - 1.291485548 * b) ** 3;

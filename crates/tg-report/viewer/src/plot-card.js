@@ -4,10 +4,11 @@ import { axisLabel, number, quantity } from './format.js';
 import { lineContent, stripContent } from './plot-content.js';
 import { rowAxis, xAxis, yAxis } from './plot-axes.js';
 import { SeriesList } from './series-list.js';
-import { seriesStyle, theme } from './theme.js';
+import { seriesStyle, seriesSwatch, theme } from './theme.js';
 
 const FIRST = { lines: 8, points: 8, strips: 20 };
 const HEIGHT = 190;
+const ALONE = 320;
 const GRAB = 8;
 
 /** Which series are on at first: all of a few, the first of many; of strips, those where something happens. */
@@ -38,7 +39,7 @@ export class PlotCard {
     this.undo = h('button', { type: 'button', class: 'text', hidden: true, onclick: () => this.zoomAll(null) }, 'Reset zoom');
     this.holder = h('div', { class: 'plot' });
     const list = new SeriesList(
-      plot.series.map((s, i) => ({ name: s.name, swatch: this.strips ? 'var(--strip)' : seriesStyle(i).swatch })),
+      plot.series.map((s, i) => ({ name: s.name, swatch: this.strips ? 'var(--strip)' : this.swatch(i) })),
       this.visible, () => this.showVisible());
     this.list = list;
     const single = plot.series.length === 1 && !this.strips;
@@ -55,12 +56,17 @@ export class PlotCard {
     this.heading.setAttribute('aria-expanded', !this.body.hidden);
   }
 
+  swatch(i) {
+    return this.plot.kind === 'points' ? seriesStyle(i).colour : seriesSwatch(i);
+  }
+
   rows() {
     return [...this.visible].sort((a, b) => a - b);
   }
 
   height() {
-    if (!this.strips) return HEIGHT;
+    // Without a stage beside them the plots have the page to themselves.
+    if (!this.strips) return this.element.closest('.with-stage') ? HEIGHT : ALONE;
     const rows = Math.max(1, this.visible.size);
     return 52 + rows * (rows <= 24 ? 17 : 12);
   }
@@ -239,7 +245,7 @@ export class PlotCard {
   }
 
   repaint() {
-    if (!this.strips) this.plot.series.forEach((_, i) => (this.list.entries[i].swatch = seriesStyle(i).swatch));
+    if (!this.strips) this.plot.series.forEach((_, i) => (this.list.entries[i].swatch = this.swatch(i)));
     this.list.refresh();
     if (this.chart) this.draw();
   }

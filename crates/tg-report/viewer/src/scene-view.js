@@ -8,8 +8,8 @@ export class SceneView {
     this.element = element;
     this.structure = structure;
     this.scene = new Scene();
-    this.sky = new HemisphereLight(0xffffff, 0xa9b1bd, 2.2);
-    this.sun = new DirectionalLight(0xffffff, 1.5);
+    this.sky = new HemisphereLight(0xffffff, 0x8c95a3, 1.9);
+    this.sun = new DirectionalLight(0xffffff, 1.7);
     this.scene.add(this.sky, this.sun, structure.group);
     this.markMaterial = new LineMaterial({ linewidth: 9, transparent: true, opacity: 0.4, depthTest: false, depthWrite: false });
     this.mark = new Segments(Math.max(1, structure.assembly.edges.length), this.markMaterial);

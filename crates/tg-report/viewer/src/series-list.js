@@ -63,7 +63,7 @@ export class SeriesList {
         h('i', { style: `background:${swatch}` }), h('span', {}, name));
     }));
     if (found.length > LISTED) this.chips.append(h('span', { class: 'note' }, `and ${found.length - LISTED} more`));
-    if (!found.length) this.chips.append(h('span', { class: 'note' }, this.entries.length ? 'No series has that name.' : 'No series.'));
+    if (!found.length) this.chips.append(h('span', { class: 'note' }, 'No series has that name.'));
     if (focused !== null) this.chips.querySelector(`[data-index="${focused}"]`)?.focus();
     if (this.count) this.count.textContent = `${this.visible.size} shown`;
   }

@@ -18,10 +18,16 @@ function columns(count, width, height) {
 
 const verdict = (stable) => (stable === null ? null : stable ? 'stable' : 'unstable');
 
+/** Energies that are zero but for rounding are said to be zero. */
+function withoutNoise(list) {
+  const largest = Math.max(...list.map((s) => Math.abs(s.energy ?? 0)));
+  return list.map((s) => (s.energy !== null && Math.abs(s.energy) < 1e-14 * largest ? { ...s, energy: 0 } : s));
+}
+
 /** Equilibria: all side by side, or one enlarged. One alone is simply shown. */
 export class ShapesView {
   constructor({ assembly, payload, stage, makeView }) {
-    const { list } = payload.shapes;
+    const list = withoutNoise(payload.shapes.list);
     this.name = list.length > 1 ? 'Equilibria' : 'Shape';
     this.stage = stage;
     this.tensions = tensionExtent(list);
@@ -30,8 +36,8 @@ export class ShapesView {
     this.shapes = list.map((shape, index) => {
       const state = configurationState(assembly, shape);
       this.extent.add(state.vertices).add(state.ends);
-      const cell = this.makeCell(shape, index);
-      const view = makeView(cell, list.length === 1 ? 'solid' : shape.stable === false ? 'faint' : 'small');
+      const { cell, picture } = this.makeCell(shape, index);
+      const view = makeView(picture, list.length === 1 ? 'solid' : shape.stable === false ? 'faint' : 'small');
       view.structure.state = state;
       view.shape = index;
       return { ...shape, cell, view };
@@ -62,7 +68,10 @@ export class ShapesView {
   makeCell(shape, index) {
     const stability = verdict(shape.stable);
     const open = h('button', { type: 'button', class: 'cell-open', 'aria-label': `Enlarge equilibrium ${shape.label}`, onclick: () => this.enlarge(index) }, this.caption(shape, index));
-    return h('div', { class: `cell ${stability ?? ''}`, role: 'listitem' }, open);
+    const picture = h('div', { class: 'picture' });
+    // Else the controls of the camera take the click for themselves.
+    open.addEventListener('pointerdown', (event) => event.stopPropagation());
+    return { cell: h('div', { class: `cell ${stability ?? ''}`, role: 'listitem' }, picture, open), picture };
   }
 
   makeFooter() {

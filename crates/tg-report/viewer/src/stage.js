@@ -122,15 +122,12 @@ export class Stage {
     if (!this.views.length || !this.points.length) return;
     const { width, height } = this.rectangle(this.views[0]);
     if (!width || !height) return;
-    // Pixels kept free for what lies over the picture; more at the foot, where captions and scale are.
-    const [side, ends, lift] = this.views.length > 1 ? [20, 26, 12] : [48, 46, 12];
-    const margin = { x: width / Math.max(width * 0.5, width - 2 * side), y: height / Math.max(height * 0.5, height - 2 * ends) };
+    // Overlays at the pane's edges need some air.
+    const margin = this.views.length > 1 ? 1.3 : 1.22;
     const f = fit(this.points, this.space.view, this.space.up, width / height, FIELD, margin);
     this.halfHeight = Math.max(f.halfHeight, this.size * 0.05);
     const distance = this.plane ? 10 * this.halfHeight : Math.max(f.distance, this.size * 0.1);
     const target = this.plane ? f.flatTarget : f.target;
-    const visible = this.plane ? 2 * this.halfHeight : 2 * distance * Math.tan((FIELD * Math.PI) / 360);
-    target.addScaledVector(f.top, (-lift * visible) / height);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(this.space.view, distance);
     this.camera.zoom = 1;

@@ -6,16 +6,27 @@ import { CableLines } from './cable-lines.js';
 export const looks = {
   solid: { opacity: 1, cableWidth: 2.4, ghost: false },
   small: { opacity: 1, cableWidth: 2, ghost: false },
-  faint: { opacity: 0.36, cableWidth: 1.5, ghost: false },
+  faint: { opacity: 0.5, cableWidth: 1.3, ghost: false },
   ghost: { opacity: 0.2, cableWidth: 1.2, ghost: true },
 };
 
-/** Radii as drawn: the true one, but never so thin that it could be taken for a cable. */
+/** The typical length of the bars, or of any edges where there are no bars. */
+function typicalLength({ members, edges, local }) {
+  const length = ({ a, b }) => Math.hypot(...[0, 1, 2].map((i) => local[3 * b + i] - local[3 * a + i]));
+  const bars = edges.filter((e) => members[e.member].kind === 'bar');
+  const lengths = (bars.length ? bars : edges).map(length).sort((x, y) => x - y);
+  return lengths.length ? lengths[lengths.length >> 1] : Infinity;
+}
+
+/**
+ * Radii as drawn: the true one, but never so thin that it could be taken for a cable; in a tall mast of short bars the
+ * bars still stay apart.
+ */
 export function drawnRadii(assembly, size) {
-  const length = ({ vertices: v }) => (v.length > 1 ? Math.hypot(...v[0].map((x, i) => x - v[1][i])) : Infinity);
-  return assembly.members.map((member) => {
-    const least = size * { bar: 0.0065, body: 0.0035, particle: 0.012 }[member.kind];
-    return Math.max(member.radius, Math.min(least, 0.03 * length(member)));
+  const unit = Math.min(size, 8 * typicalLength(assembly));
+  return assembly.members.map(({ kind, radius }) => {
+    const least = unit * { bar: 0.0065, body: 0.0035, particle: 0.012 }[kind];
+    return Math.max(radius, least);
   });
 }
 
@@ -43,7 +54,9 @@ export class Structure {
       if (ends.has(v) || assembly.members[m].kind === 'particle') balls.push({ vertex: v, radius: radii[m] });
     }
     this.balls = new Balls(balls, look);
-    this.cables = new CableLines(cableCount, { ...look, dash: size * 0.014 });
+    // Many cables need thin lines to be told apart.
+    const cableWidth = look.cableWidth * (cableCount > 100 ? 0.7 : 1);
+    this.cables = new CableLines(cableCount, { ...look, cableWidth, dash: size * 0.014 });
     this.group.add(this.tubes.mesh, this.balls.mesh, ...this.cables.objects);
     if (assembly.faces.length) this.group.add(this.makeFaces());
     // A ghost goes first, so that what stands before it covers it.

@@ -1,4 +1,4 @@
-import { oklabToSrgb, oklch } from './oklab.js';
+import { oklabToSrgb } from './oklab.js';
 import { number, quantity } from './format.js';
 
 /**
@@ -8,7 +8,7 @@ import { number, quantity } from './format.js';
 const maps = {
   light: {
     sequential: [[0.76, 0.1, 225], [0.67, 0.14, 255], [0.57, 0.2, 295], [0.48, 0.22, 340], [0.38, 0.16, 385]],
-    diverging: [[0.4, 0.11, 250], [0.58, 0.13, 240], [0.78, 0.015, 240], [0.6, 0.17, 45], [0.42, 0.13, 35]],
+    diverging: [[0.4, 0.11, 250], [0.58, 0.13, 240], [0.72, 0.015, 240], [0.6, 0.17, 45], [0.42, 0.13, 35]],
   },
   dark: {
     sequential: [[0.52, 0.16, 265], [0.6, 0.2, 295], [0.69, 0.2, 345], [0.79, 0.15, 410], [0.91, 0.15, 460]],
@@ -20,12 +20,15 @@ const STEPS = 256;
 
 function table(stops) {
   const rgb = new Float32Array(STEPS * 3);
-  const points = stops.map((stop) => oklch(...stop));
   for (let i = 0; i < STEPS; i++) {
     const at = (i / (STEPS - 1)) * (stops.length - 1);
     const k = Math.min(stops.length - 2, Math.floor(at));
     const w = at - k;
-    rgb.set(oklabToSrgb(points[k].map((c, j) => c * (1 - w) + points[k + 1][j] * w)), i * 3);
+    // Mixed straight across the colour plane: by hue, the way from blue to orange would lead through green.
+    const across = (of) => of(stops[k]) * (1 - w) + of(stops[k + 1]) * w;
+    const a = across(([, chroma, hue]) => chroma * Math.cos((hue * Math.PI) / 180));
+    const b = across(([, chroma, hue]) => chroma * Math.sin((hue * Math.PI) / 180));
+    rgb.set(oklabToSrgb(across(([lightness]) => lightness), a, b), i * 3);
   }
   return rgb;
 }
@@ -60,8 +63,7 @@ export class TensionScale {
     if (this.diverging) {
       high = Math.max(-low, high);
       low = -high;
-      // From nothing, where the least is next to nothing or where all carry the same.
-    } else if (low < 0.05 * high || high - low < 1e-4 * high) low = 0;
+    } else if (high - low < 1e-4 * high) low = 0;
     this.low = low;
     this.high = high;
     this.rgb = table(maps[theme][this.diverging ? 'diverging' : 'sequential']);

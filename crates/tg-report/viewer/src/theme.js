@@ -19,13 +19,17 @@ const palettes = {
   dark: ['#5ab0f2', '#ff8f52', '#3ecb9c', '#ee93c6', '#f2c14b', '#a5d8ff', '#b6a3f2', '#a9b4c2'],
 };
 const dashes = [null, [6, 3], [2, 2], [9, 3, 2, 3]];
-const swatches = ['100%', '5px 7px', '2px 4px', '6px 8px'];
 
 export function seriesStyle(index) {
   const palette = palettes[theme().name];
-  const colour = palette[index % palette.length];
-  const turn = Math.floor(index / palette.length) % dashes.length;
-  const [on, period] = swatches[turn].split(' ');
-  const swatch = period ? `repeating-linear-gradient(to right, ${colour} 0 ${on}, transparent ${on} ${period})` : colour;
-  return { colour, dash: dashes[turn], swatch };
+  return { colour: palette[index % palette.length], dash: dashes[Math.floor(index / palette.length) % dashes.length] };
+}
+
+/** The line of a series as a CSS background, dashes and all. */
+export function seriesSwatch(index) {
+  const { colour, dash } = seriesStyle(index);
+  if (!dash) return colour;
+  let at = 0;
+  const stops = dash.map((length, i) => `${i % 2 ? 'transparent' : colour} ${at}px ${(at += length)}px`);
+  return `repeating-linear-gradient(to right, ${stops.join(', ')})`;
 }

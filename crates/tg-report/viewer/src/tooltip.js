@@ -22,7 +22,7 @@ export class Tooltip {
       const c = picked.index;
       return {
         title: cable.name,
-        note: cable.group && !cable.name.includes(cable.group) ? cable.group : null,
+        note: cable.group,
         rows: [
           ['tension', structure.scale.describe(state.tension[c], state.slack[c])],
           ['length', quantity(distance(state.ends, 6 * c, state.ends, 6 * c + 3), 'm', 4)],

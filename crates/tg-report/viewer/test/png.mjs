@@ -14,23 +14,16 @@ export function decode(png) {
   const raw = inflateSync(Buffer.concat(parts));
   const stride = width * channels;
   const pixels = new Uint8Array(stride * height);
-  const paeth = (left, above, corner) => {
-    const guess = left + above - corner;
-    const pl = Math.abs(guess - left), pa = Math.abs(guess - above), pc = Math.abs(guess - corner);
-    return pl <= pa && pl <= pc ? left : pa <= pc ? above : corner;
-  };
   for (let y = 0; y < height; y++) {
     const filter = raw[y * (stride + 1)];
     for (let x = 0; x < stride; x++) {
-      const at = y * stride + x;
-      const left = x >= channels ? pixels[at - channels] : 0;
-      const above = y ? pixels[at - stride] : 0;
-      let guess = 0;
-      if (filter === 1) guess = left;
-      else if (filter === 2) guess = above;
-      else if (filter === 3) guess = (left + above) >> 1;
-      else if (filter === 4) guess = paeth(left, above, x >= channels && y ? pixels[at - channels - stride] : 0);
-      pixels[at] = raw[at + y + 1] + guess;
+      const left = x >= channels ? pixels[y * stride + x - channels] : 0;
+      const above = y ? pixels[(y - 1) * stride + x] : 0;
+      const corner = x >= channels && y ? pixels[(y - 1) * stride + x - channels] : 0;
+      const [pl, pa, pc] = [Math.abs(above - corner), Math.abs(left - corner), Math.abs(left + above - 2 * corner)];
+      const paeth = pl <= pa && pl <= pc ? left : pa <= pc ? above : corner;
+      const guess = [0, left, above, (left + above) >> 1, paeth][filter];
+      pixels[y * stride + x] = (raw[y * (stride + 1) + 1 + x] + guess) & 255;
     }
   }
   return { width, height, channels, pixels };
@@ -45,9 +38,8 @@ export function distinctColours({ pixels, channels }) {
 export function differingPixels(a, b) {
   let count = 0;
   for (let i = 0; i < a.pixels.length; i += a.channels) {
-    let far = 0;
-    for (let c = 0; c < 3; c++) far = Math.max(far, Math.abs(a.pixels[i + c] - b.pixels[i + c]));
-    if (far > 24) count++;
+    const far = [0, 1, 2].some((c) => Math.abs(a.pixels[i + c] - b.pixels[i + c]) > 24);
+    if (far) count++;
   }
   return count;
 }
