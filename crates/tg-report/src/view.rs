@@ -105,7 +105,9 @@ fn subtitle(manifest: &Manifest) -> String {
         kind => Some(kind.name().to_owned()),
     };
     let program = Some(manifest.program.clone()).filter(|p| !p.is_empty());
-    let parts = [kind, program, manifest.started.clone(), ending];
+    // 2026-11-22T07:09:16Z
+    let started = manifest.started.as_deref().map(|t| t.trim_end_matches('Z').replace('T', " "));
+    let parts = [kind, program, started, ending];
     parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 

@@ -85,7 +85,11 @@ fn name(what: PlotWhat) -> &'static str {
 
 fn curves(results: &Results, what: PlotWhat) -> Result<Option<Plot>, Failure> {
     let group = match what {
-        PlotWhat::Sweep => return Ok(results.plots()?.into_iter().next()),
+        // Equilibria are drawn by the sweep itself, frequencies are columns.
+        PlotWhat::Sweep => match results.plots()?.into_iter().next() {
+            Some(plot) => return Ok(Some(plot)),
+            None => "frequency",
+        },
         PlotWhat::EnergyDrift => return Ok(Plot::energy_drift(&results.table()?, "total energy")),
         PlotWhat::Tensions => "tension",
         PlotWhat::Lengths => "length",

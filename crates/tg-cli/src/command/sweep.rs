@@ -5,7 +5,7 @@ mod equilibria;
 use serde_json::json;
 use tg_modal::{SweepOptions, sweep as follow};
 use tg_model::Model;
-use tg_report::{Axis, Channel, Kind, Plot, PlotKind, Series};
+use tg_report::{Channel, Kind};
 use tg_scene::{Built, Structure};
 use tg_statics::Configuration;
 
@@ -124,21 +124,6 @@ where
         "omega_squared": found.tracks.iter().map(|track| &track.omega_squared).collect::<Vec<_>>(),
         "ambiguous": found.ambiguous,
     });
-    let plot = Plot {
-        title: "Frequencies".into(),
-        kind: PlotKind::Lines,
-        x: Axis::new(name.clone(), ""),
-        y: Axis::new("frequency", "Hz"),
-        time: false,
-        at: found.parameters.clone(),
-        series: (1..)
-            .zip(&found.tracks)
-            .map(|(k, track)| Series {
-                name: format!("mode {k}"),
-                values: track.omega_squared.iter().map(|w| frequency(*w)).collect(),
-            })
-            .collect(),
-    };
     let settings =
         json!({ "command": "sweep", "what": "modes", "parameter": name, "count": arguments.count });
     let mut manifest = manifest(Kind::Sweep, loaded, Painter::new(structure)?.outline(), settings);
