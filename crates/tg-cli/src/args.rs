@@ -1,4 +1,5 @@
-//! The command line.
+//! The command line. What stands in brackets here is a unit that people read in a terminal.
+#![allow(rustdoc::broken_intra_doc_links)]
 
 use std::path::PathBuf;
 
