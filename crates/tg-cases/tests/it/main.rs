@@ -3,6 +3,7 @@
 
 mod antiprism;
 mod mechanism;
+mod outside;
 mod rows;
 mod scenes;
 mod snapshots;

@@ -1,4 +1,4 @@
-//! A guyed mast on a shaken ground: build, simulate, look at a cable.
+// A guyed mast on a shaken ground: build, simulate, look at a cable.
 
 use std::error::Error;
 

@@ -3,12 +3,15 @@
 //! Trial runs over the whole motion, since errors grow, with steps h and h/2: the schemes are of second order, so that the
 //! positions of the first are off by about 4/3 of their difference, and an error ε wants the step h √(ε / error).
 
+use std::sync::atomic::Ordering::Relaxed;
+
 use serde_json::{Value, json};
 use tg_integrate::{Run as Integration, State, StepReport};
 use tg_scene::{RunSettings, Structure};
 
 use super::stepper;
 use crate::answer::Failure;
+use crate::progress::INTERRUPTED;
 
 /// Steps of the first trial.
 const FIRST: f64 = 64.0;
@@ -31,6 +34,9 @@ pub(super) fn step<const D: usize>(
     let mut coarse = trial(structure, settings, end, steps);
     while steps < FINEST {
         let fine = trial(structure, settings, end, 2.0 * steps);
+        if INTERRUPTED.load(Relaxed) {
+            return Err(Failure::analysis("stopped by Ctrl-C before a step was chosen"));
+        }
         let error = match (&coarse, &fine) {
             (Some(coarse), Some(fine)) => 4.0 / 3.0 * distance(coarse, fine),
             _ => f64::INFINITY,
@@ -79,7 +85,11 @@ fn trial<const D: usize>(
         }
         count += 1;
     };
-    Integration::new(end / steps, end).observe(&mut look).go(stepper.as_mut(), &mut state).ok()?;
+    Integration::new(end / steps, end)
+        .observe(&mut look)
+        .cancel_on(&INTERRUPTED)
+        .go(stepper.as_mut(), &mut state)
+        .ok()?;
     Some(seen)
 }
 
