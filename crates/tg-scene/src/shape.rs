@@ -121,7 +121,8 @@ fn only_in_space<T>(place: &Spanned<T>) -> ReadError {
     ReadError::new("this shape needs three dimensions").at(&place.span).help("in the plane: box or plate")
 }
 
-fn padded<const D: usize>(point: &SVector<f64, D>) -> [f64; 3] {
+/// With z = 0 in the plane.
+pub(crate) fn padded<const D: usize>(point: &SVector<f64, D>) -> [f64; 3] {
     std::array::from_fn(|k| if k < D { point[k] } else { 0.0 })
 }
 

@@ -19,7 +19,7 @@ use crate::args::Run;
 use crate::loading::{Loaded, remarks, stem};
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, watch_for_interrupts};
-use crate::results::{hash, manifest, set, write_view};
+use crate::results::{hash, manifest, set, told, write_view};
 use channels::Channels;
 use recording::Recording;
 
@@ -32,16 +32,15 @@ pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
 
 /// The scene's run section, with what the command line says instead.
 fn settings(loaded: &Loaded, arguments: &Run) -> Result<RunSettings, Failure> {
-    let missing = || {
-        let message = "the scene has no [run] section; give --duration and --step";
-        Failure::Usage(message.into())
-    };
     let mut settings = match (loaded.file.run(&loaded.set)?, arguments.duration) {
         (Some(settings), _) => settings,
         (None, Some(duration)) if arguments.step.is_some() || arguments.accuracy.is_some() => {
             RunSettings::new(duration)
         }
-        (None, _) => return Err(missing()),
+        (None, _) => {
+            let message = "the scene has no [run] section; give --duration and --step";
+            return Err(Failure::Usage(message.into()));
+        }
     };
     settings.duration = arguments.duration.unwrap_or(settings.duration);
     if arguments.step.is_some() || arguments.accuracy.is_some() {
@@ -109,11 +108,8 @@ fn simulate<const D: usize>(
         "summary": counts,
     });
     let mut text = format!("{}: {} steps of {step} s to t = {} s\n", loaded.title(), summary.steps, state.t);
-    text += &format!("results in {}", folder.display());
-    if !arguments.no_view {
-        text += &format!(", to look at: {}", folder.join("view.html").display());
-    }
-    text += "\n";
+    text +=
+        &if arguments.no_view { format!("results in {}\n", folder.display()) } else { told(Some(&folder)) };
     let mut answer = Answer::new(document, text).warn(warnings);
     answer.failed = why.map(|why| format!("{why}; --resume goes on from t = {} s", state.t));
     Ok(answer)

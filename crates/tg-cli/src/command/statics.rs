@@ -56,7 +56,7 @@ fn answer<const D: usize>(
     });
     let manifest = manifest(Kind::Statics, loaded, painter.outline(), settings);
     let folder = write(&arguments.output, manifest, &document, |writer| {
-        let energy = Some(model.potential_energy(&q, &u));
+        let energy = Some(model.mechanics().potential(&q, &u));
         let label = if balanced { "equilibrium" } else { "shape as built" };
         let frame = painter.frame(0.0, &q, &u)?;
         Ok(writer.document("shapes", &[Shape { label: label.into(), stable, energy, frame }])?)
@@ -71,17 +71,6 @@ fn answer<const D: usize>(
         );
     }
     Ok(answer)
-}
-
-/// Potential energy of a model.
-trait Potential {
-    fn potential_energy(&self, q: &[f64], u: &[f64]) -> f64;
-}
-
-impl<const D: usize> Potential for tg_model::Model<D> {
-    fn potential_energy(&self, q: &[f64], u: &[f64]) -> f64 {
-        self.mechanics().potential(q, u)
-    }
 }
 
 fn inverse<const D: usize>(

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 use tg_coords::{CoordType, MassProperties, Member, Pose};
 
 use super::Assembler;
-use super::members::{Made, SLENDER, padded};
+use super::members::{Made, SLENDER};
 use crate::dimension::{Dimension, Space};
 use crate::error::ReadError;
 use crate::expression::Variables;
@@ -13,7 +13,7 @@ use crate::names::Copy;
 use crate::node::Span;
 use crate::place::{PlaceName, PlaceRef};
 use crate::quantity::Quantity;
-use crate::shape::{Outline, Solid};
+use crate::shape::{Outline, Solid, padded};
 use crate::structure::{MemberPicture, PictureKind};
 use crate::values::{components, positive, vector};
 

@@ -12,7 +12,7 @@ use crate::names::{Copy, NamedMember, Target};
 use crate::parts::Parts;
 use crate::place::PlaceRef;
 use crate::quantity::Vector;
-use crate::shape::Outline;
+use crate::shape::{Outline, padded};
 use crate::spanned::Spanned;
 use crate::structure::{MemberPicture, PictureKind};
 use crate::values::{positive, vector};
@@ -89,7 +89,7 @@ where
             .builder
             .member(&name, made.member.clone(), made.pose)
             .map_err(|e| mistake(&e, &given.span))?;
-        if let (Some(_), _) | (_, Some(_)) = motion {
+        if motion.0.is_some() || motion.1.is_some() {
             let twist = start(&made, motion, copy)?;
             self.motions.push((id, twist));
         }
@@ -136,10 +136,6 @@ where
         let picture = MemberPicture { kind: PictureKind::Particle, outline, radius: 0.0 };
         Ok(Made { member, pose: Pose::identity(), points: Vec::new(), picture })
     }
-}
-
-pub(super) fn padded<const D: usize>(point: &SVector<f64, D>) -> [f64; 3] {
-    std::array::from_fn(|k| if k < D { point[k] } else { 0.0 })
 }
 
 /// Twist of the local frame from the velocity of the mass centre and the spin, both turned with the copy.
