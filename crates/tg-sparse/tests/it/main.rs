@@ -8,3 +8,4 @@ mod rank;
 mod repeated;
 mod singular;
 mod support;
+mod symmetric;
