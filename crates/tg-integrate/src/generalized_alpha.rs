@@ -131,8 +131,8 @@ impl<'m> GeneralizedAlpha<'m> {
         }
     }
 
-    /// Residual divided by β' into the right-hand side; the worst scaled row.
-    fn residual(&mut self, beta_prime: f64) -> Worst {
+    /// Residual divided by β' into the right-hand side, and the scale of its dynamic rows.
+    fn residual(&mut self, beta_prime: f64) -> f64 {
         let at = At { q: &self.q, v: &self.v, u: &self.inputs, taut: None };
         self.system.mechanics.force(at, &mut self.force);
         self.system.set_upper(&self.q);
@@ -144,8 +144,8 @@ impl<'m> GeneralizedAlpha<'m> {
             scale = scale.max(inertial.abs()).max(force.abs()).max(reaction.abs());
             self.system.rhs[k] = (inertial - force - reaction) / beta_prime;
         }
-        let constraints = self.system.constraint_rows(&self.q);
-        self.system.dynamic_rows(scale / beta_prime).max(constraints)
+        self.system.constraint_rows(&self.q);
+        scale / beta_prime
     }
 
     fn iterate(&mut self, state: &State, h: f64) -> Result<(u32, f64), (Failure, u32, Worst)> {
@@ -155,15 +155,14 @@ impl<'m> GeneralizedAlpha<'m> {
         let (mut iterations, mut correction) = (0, f64::INFINITY);
         loop {
             self.kinematics(state, h);
-            let worst = self.residual(beta_prime);
-            if !worst.residual.is_finite() {
-                return Err((Failure::NotFinite, iterations, worst));
+            let scale = self.residual(beta_prime);
+            let residual = self.system.largest(scale);
+            if residual <= self.options.tolerance || (correction <= resolution && residual.is_finite()) {
+                return Ok((iterations, residual));
             }
-            if worst.residual <= self.options.tolerance || correction <= resolution {
-                return Ok((iterations, worst.residual));
-            }
-            if iterations == self.options.max_iterations {
-                return Err((Failure::NotConverged, iterations, worst));
+            if !residual.is_finite() || iterations == self.options.max_iterations {
+                let failure = if residual.is_finite() { Failure::NotConverged } else { Failure::NotFinite };
+                return Err((failure, iterations, self.system.worst(scale)));
             }
             iterations += 1;
             for (scaled, lambda) in self.scaled_lambda.iter_mut().zip(&self.lambda) {
@@ -172,7 +171,8 @@ impl<'m> GeneralizedAlpha<'m> {
             let at = At { q: &self.q, v: &self.v, u: &self.inputs, taut: None };
             self.system
                 .solve(at, factors, &self.q, &self.scaled_lambda)
-                .map_err(|error| (Failure::Solver(error), iterations, worst))?;
+                .map_err(|error| (error, self.system.worst(scale)))
+                .map_err(|(error, worst)| (Failure::Solver(error), iterations, worst))?;
             correction = 0.0;
             for (k, &i) in self.system.mechanics.free().iter().enumerate() {
                 self.delta[i] -= self.system.rhs[k];
@@ -202,11 +202,10 @@ impl Stepper for GeneralizedAlpha<'_> {
         mechanics.inputs(t, &mut self.inputs);
         let at = At { q: &state.q, v: &state.v, u: &self.inputs, taut: None };
         mechanics.force(at, &mut self.force);
-        self.system.phi.fill(0.0);
+        let mut rates = vec![0.0; mechanics.sizes().constraints];
         for entry in mechanics.constraint_hessian() {
-            self.system.phi[entry.constraint] += entry.value * state.v[entry.row] * state.v[entry.col];
+            rates[entry.constraint] += entry.value * state.v[entry.row] * state.v[entry.col];
         }
-        let rates = self.system.phi.clone();
         self.projector.acceleration(
             &state.q,
             &self.force,

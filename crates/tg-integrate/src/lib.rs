@@ -32,6 +32,7 @@
 mod check;
 mod error;
 mod generalized_alpha;
+mod kept;
 mod recorder;
 mod run;
 mod state;

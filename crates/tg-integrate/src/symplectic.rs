@@ -25,12 +25,24 @@
 //! reverses the closing velocity instead of stopping it (measured: factor -0.88 at a ratio of 15). Choose h smaller.
 
 use tg_model::{At, Mechanics, ProjectionError, Projector};
+use tg_sparse::SparseError;
 
 use crate::check;
 use crate::error::{StartError, StepError};
+use crate::kept::Kept;
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
 use crate::system::{Factors, Failure, NewtonSystem, Worst};
+
+/// The first correction removes most of a smooth residual; those after it are not trusted to do better than this.
+const FASTEST: f64 = 0.02;
+/// What the last correction, whose residual is not looked at, is to leave of the tolerance: with full Newton steps it would
+/// have been as little.
+const POLISHED: f64 = 0.01;
+/// A residual that falls less than this in an iteration asks for new factors.
+const SLOW: f64 = 0.1;
+/// A step that took more iterations leaves the next one without factors.
+const KEEP_UP_TO: u32 = 4;
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
 pub struct Symplectic<'m> {
@@ -38,6 +50,9 @@ pub struct Symplectic<'m> {
     system: NewtonSystem<'m>,
     projector: Projector<'m>,
     work: Work,
+    /// Where the factors that the system holds were taken.
+    factored: Factored,
+    kept: Kept,
     /// Where substeps are tried.
     trial: State,
     /// Whether p_k is the projected momentum Ḿ q̇_k, or carried in the state's memory as printed.
@@ -57,6 +72,16 @@ struct Work {
     inputs: Vec<f64>,
     taut: Vec<bool>,
     taut_by_law: Vec<bool>,
+}
+
+/// A step and the displacement in it at which the Newton matrix was factored.
+#[derive(Default)]
+struct Factored {
+    t: f64,
+    /// Zero for factors that serve one step only.
+    h: f64,
+    q: Vec<f64>,
+    delta: Vec<f64>,
 }
 
 /// A converged substep.
@@ -101,7 +126,15 @@ impl<'m> Symplectic<'m> {
                 taut: vec![false; sizes.switches],
                 taut_by_law: vec![false; sizes.switches],
             },
-            trial: State { q: zeros(), v: zeros(), lambda: vec![0.0; m], ..State::default() },
+            factored: Factored { q: zeros(), delta: zeros(), ..Factored::default() },
+            kept: Kept::new(n, 0),
+            trial: State {
+                q: zeros(),
+                v: zeros(),
+                lambda: vec![0.0; m],
+                memory: vec![0.0; Kept::new(n, 0).end()],
+                ..State::default()
+            },
             project: true,
             system,
             projector,
@@ -113,7 +146,8 @@ impl<'m> Symplectic<'m> {
     #[must_use]
     pub fn carrying_momentum(mut self) -> Self {
         self.project = false;
-        self.trial.memory = vec![0.0; self.work.p.len()];
+        self.kept = Kept::new(self.trial.q.len(), self.work.p.len());
+        self.trial.memory = vec![0.0; self.kept.end()];
         self
     }
 
@@ -121,43 +155,131 @@ impl<'m> Symplectic<'m> {
     /// contradicts the law.
     fn advance(&mut self, state: &mut State, h: f64, last: bool) -> Result<Converged, Failed> {
         self.predict(state, h);
-        let half = 0.5 * h * h;
-        let factors = Factors { mass: 1.0, stiffness: 0.5 * half, damping: 0.5 * h };
         let resolution = 4.0 * f64::EPSILON * largest(&state.q);
-        let mut frozen = false;
-        let mut iterations = 0;
+        let mut has_factors = self.recall(state, h);
+        let (mut frozen, mut iterations, mut factored) = (false, 0, 0);
+        let (mut before, mut slowest) = (f64::INFINITY, FASTEST);
         let mut correction = f64::INFINITY;
         loop {
-            let worst = self.residual(state, h, frozen);
-            let fail = move |failure| Failed { failure, iterations, worst };
-            if !worst.residual.is_finite() {
-                return Err(fail(Failure::NotFinite));
+            let scale = self.residual(state, h, frozen);
+            let mut residual = self.system.largest(scale);
+            if !residual.is_finite() {
+                return Err(self.failed(Failure::NotFinite, iterations, scale));
             }
-            if worst.residual <= self.options.tolerance || correction <= resolution {
-                let forced = if frozen { self.contradictions() } else { 0 };
-                if forced > 0 && !last {
-                    return Err(fail(Failure::NotConverged));
-                }
-                self.finish(state, h).map_err(|error| fail(Failure::Projection(error)))?;
-                let frozen = frozen && forced == 0;
-                return Ok(Converged { iterations, residual: worst.residual, frozen, forced });
+            let fell = residual / before;
+            if iterations > 0 {
+                slowest = slowest.max(fell);
+            }
+            // One more correction, whose residual need not be looked at.
+            let last_one = has_factors && iterations > 0 && fell < SLOW && slowest * residual <= POLISHED * self.options.tolerance;
+            if last_one {
+                iterations += 1;
+                self.system.apply().map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
+                self.correct();
+                residual *= slowest;
+            }
+            if residual <= self.options.tolerance || correction <= resolution {
+                return self.accept(state, h, frozen, last, Converged { iterations, residual, frozen, forced: 0 }, scale);
             }
             if iterations == self.options.max_iterations {
-                return Err(fail(Failure::NotConverged));
+                return Err(self.failed(Failure::NotConverged, iterations, scale));
             }
-            if iterations == self.options.freeze_after && !self.work.taut.is_empty() {
+            if factored == self.options.freeze_after && !frozen && !self.work.taut.is_empty() {
                 frozen = true;
+                has_factors = false;
                 let Work { q_mid, v_mid, inputs, taut, .. } = &mut self.work;
                 let at = At { q: q_mid, v: v_mid, u: inputs, taut: None };
                 self.system.mechanics.active_set(at, taut);
             }
+            has_factors &= fell <= SLOW || iterations == 0;
+            before = residual;
             iterations += 1;
-            let Work { q_mid, v_mid, q_end, inputs, taut, nu, .. } = &self.work;
-            let at = At { q: q_mid, v: v_mid, u: inputs, taut: frozen.then_some(taut) };
-            if let Err(error) = self.system.solve(at, factors, q_end, nu) {
-                return Err(fail(Failure::Solver(error)));
-            }
+            let solved = if has_factors {
+                self.system.apply()
+            } else {
+                factored += 1;
+                self.factor_and_solve(state, h, frozen)
+            };
+            solved.map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
+            has_factors = true;
             correction = self.correct();
+        }
+    }
+
+    /// Takes a converged iterate, unless it contradicts the laws of cables held by a frozen active set.
+    fn accept(
+        &mut self,
+        state: &mut State,
+        h: f64,
+        frozen: bool,
+        last: bool,
+        converged: Converged,
+        scale: f64,
+    ) -> Result<Converged, Failed> {
+        let iterations = converged.iterations;
+        let forced = if frozen { self.contradictions() } else { 0 };
+        if forced > 0 && !last {
+            return Err(self.failed(Failure::NotConverged, iterations, scale));
+        }
+        self.finish(state, h).map_err(|error| self.failed(Failure::Projection(error), iterations, scale))?;
+        self.keep(state, h, frozen || iterations > KEEP_UP_TO);
+        Ok(Converged { frozen: frozen && forced == 0, forced, ..converged })
+    }
+
+    fn failed(&self, failure: Failure, iterations: u32, scale: f64) -> Failed {
+        Failed { failure, iterations, worst: self.system.worst(scale) }
+    }
+
+    /// Whether the system holds the factors that this step is to begin with; takes them where the state says.
+    fn recall(&mut self, state: &State, h: f64) -> bool {
+        let Some((t, q, delta)) = self.kept.get(state, h) else { return false };
+        let held = &self.factored;
+        if held.h == h && held.t == t && held.q == q && held.delta == delta {
+            return true;
+        }
+        let (w, mechanics) = (&mut self.work, self.system.mechanics);
+        let f = &mut self.factored;
+        (f.t, f.h) = (t, h);
+        f.q.copy_from_slice(q);
+        f.delta.copy_from_slice(delta);
+        // The matrix of that step, in the buffers that the residual fills again.
+        mechanics.inputs(t + 0.5 * h, &mut w.inputs);
+        for i in 0..f.q.len() {
+            w.q_end[i] = f.q[i] + f.delta[i];
+            w.q_mid[i] = f.q[i] + 0.5 * f.delta[i];
+            w.v_mid[i] = f.delta[i] / h;
+        }
+        self.system.set_upper(&f.q);
+        let done = self.factor(h, false);
+        self.system.set_upper(&state.q);
+        mechanics.inputs(state.t + 0.5 * h, &mut self.work.inputs);
+        done.is_ok()
+    }
+
+    /// Factors at the present iterate, notes where, and solves with every check.
+    fn factor_and_solve(&mut self, state: &State, h: f64, frozen: bool) -> Result<(), SparseError> {
+        let f = &mut self.factored;
+        (f.t, f.h) = (state.t, if frozen { 0.0 } else { h });
+        f.q.copy_from_slice(&state.q);
+        f.delta.copy_from_slice(&self.work.delta);
+        self.factor(h, frozen)?;
+        self.system.solve_checked()
+    }
+
+    fn factor(&mut self, h: f64, frozen: bool) -> Result<(), SparseError> {
+        let factors = Factors { mass: 1.0, stiffness: 0.25 * h * h, damping: 0.5 * h };
+        let Work { q_mid, v_mid, q_end, inputs, taut, nu, .. } = &self.work;
+        let at = At { q: q_mid, v: v_mid, u: inputs, taut: frozen.then_some(taut) };
+        self.system.factor(at, factors, q_end, nu)
+    }
+
+    /// Notes in the state what the next step starts from.
+    fn keep(&mut self, state: &mut State, h: f64, forget: bool) {
+        let f = &self.factored;
+        if forget || f.h != h {
+            self.kept.clear(state);
+        } else {
+            self.kept.set(state, f.t, f.h, &f.q, &f.delta);
         }
     }
 
@@ -181,8 +303,8 @@ impl<'m> Symplectic<'m> {
         self.system.set_upper(&state.q);
     }
 
-    /// Residual (54) into the right-hand side; the worst scaled row.
-    fn residual(&mut self, state: &State, h: f64, frozen: bool) -> Worst {
+    /// Residual (54) into the right-hand side; the largest term of its dynamic rows.
+    fn residual(&mut self, state: &State, h: f64, frozen: bool) -> f64 {
         let w = &mut self.work;
         for i in 0..w.delta.len() {
             w.q_end[i] = state.q[i] + w.delta[i];
@@ -202,8 +324,8 @@ impl<'m> Symplectic<'m> {
             scale = scale.max(inertial.abs()).max(momentum.abs()).max(force.abs()).max(reaction.abs());
             self.system.rhs[k] = inertial - momentum - force - reaction;
         }
-        let constraints = self.system.constraint_rows(&w.q_end);
-        self.system.dynamic_rows(scale).max(constraints)
+        self.system.constraint_rows(&w.q_end);
+        scale
     }
 
     /// Applies the correction; its largest coordinate change.
@@ -228,19 +350,44 @@ impl<'m> Symplectic<'m> {
         taut.iter().zip(taut_by_law).filter(|(a, b)| *a != *b).count() as u32
     }
 
-    /// Momentum (53b), its projection, and the new state.
+    /// Momentum (53b), its projection, and the new state. With (54) the force drops out,
+    ///
+    /// ```text
+    /// p_{k+1} = 2 Ḿ Δ/h - p_k + (A(q_{k+1}) - A(q_k))ᵀ ν/h
+    /// ```
+    /// so that it need not be evaluated at the last iterate, and of the multipliers' large forces only the small
+    /// difference enters.
     fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
-        let w = &mut self.work;
-        self.system.set_upper(&w.q_end);
-        self.system.spread_multipliers(&w.nu);
-        for (k, &i) in self.system.mechanics.free().iter().enumerate() {
-            let reaction = self.system.constraint_force[i] / h;
-            w.p[k] = self.system.inertia.row(i, &w.delta) / h + 0.5 * h * w.force[i] + reaction;
+        let Self { system, projector, work: w, .. } = self;
+        for i in 0..w.delta.len() {
+            w.q_end[i] = state.q[i] + w.delta[i];
+        }
+        for &i in system.mechanics.free() {
             w.v_end[i] = w.delta[i] / h;
         }
-        self.projector.velocity_of_momentum(&w.q_end, &w.p, &mut w.v_end)?;
+        let moving = system.mechanics.features().moving_supports;
+        if moving {
+            for i in 0..w.delta.len() {
+                w.v_mid[i] = w.delta[i] / h - w.v_end[i];
+            }
+        }
+        projector.velocity_after_impulse(
+            &w.q_end,
+            |jacobian, impulse| {
+                system.spread_change(jacobian, &w.nu);
+                for (k, &i) in system.mechanics.free().iter().enumerate() {
+                    let mean = system.inertia.row(i, &w.delta) / h;
+                    let change = mean - w.p[k] + system.constraint_force[i] / h;
+                    // Of the supports: their mean velocity against that at the end.
+                    let supports = if moving { system.inertia.row(i, &w.v_mid) } else { 0.0 };
+                    impulse[k] = change + supports;
+                    w.p[k] = mean + change;
+                }
+            },
+            &mut w.v_end,
+        )?;
         if !self.project {
-            state.memory.copy_from_slice(&w.p);
+            state.memory[..w.p.len()].copy_from_slice(&w.p);
         }
         state.advance_time(h);
         state.q.copy_from_slice(&w.q_end);
@@ -264,6 +411,7 @@ impl Stepper for Symplectic<'_> {
             let row = |&i: &usize| self.system.inertia.row(i, &state.v);
             state.memory = self.system.mechanics.free().iter().map(row).collect();
         }
+        state.memory.resize(self.kept.end(), 0.0);
         Ok(state)
     }
 
@@ -280,7 +428,7 @@ impl Stepper for Symplectic<'_> {
             let last = halving == self.options.halvings;
             match self.advance_in(&mut trial, h, 1 << halving, last, &mut report) {
                 Ok(()) => {
-                    state.copy_from(&trial);
+                    std::mem::swap(state, &mut trial);
                     failed = None;
                     break;
                 }

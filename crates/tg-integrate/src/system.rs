@@ -5,7 +5,7 @@
 //! [A₁  0 ] [δν] = - [Φ]
 //! ```
 
-use tg_model::{At, HessianEntry, Inertia, Layout, Mechanics, ProjectionError};
+use tg_model::{At, HessianEntry, Inertia, Jacobian, Layout, Mechanics, ProjectionError};
 use tg_sparse::{SaddleSystem, SparseError};
 
 use crate::error::StepFailure;
@@ -29,6 +29,7 @@ pub(crate) struct NewtonSystem<'m> {
     pub(crate) mechanics: &'m dyn Mechanics,
     pub(crate) inertia: Inertia,
     pub(crate) layout: Layout,
+    jacobian: Jacobian,
     saddle: SaddleSystem,
     mass: Vec<f64>,
     stiffness: Vec<f64>,
@@ -40,7 +41,8 @@ pub(crate) struct NewtonSystem<'m> {
     lower: Vec<f64>,
     /// Aᵀ ν over the full coordinates.
     pub(crate) constraint_force: Vec<f64>,
-    pub(crate) phi: Vec<f64>,
+    /// Reciprocal sizes of the constraints.
+    constraint_scales: Vec<f64>,
     /// Residual in, correction out: unknowns, then multipliers.
     pub(crate) rhs: Vec<f64>,
 }
@@ -68,6 +70,8 @@ impl<'m> NewtonSystem<'m> {
             .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
+            jacobian: Jacobian::new(mechanics),
+            constraint_scales: mechanics.constraint_scales().iter().map(|scale| 1.0 / scale).collect(),
             saddle: SaddleSystem::new(pattern),
             mass: mechanics.mass().iter().map(|e| e.value).collect(),
             stiffness: vec![0.0; mechanics.stiffness_pattern().len()],
@@ -77,7 +81,6 @@ impl<'m> NewtonSystem<'m> {
             upper: vec![0.0; mechanics.jacobian_pattern().len()],
             lower: vec![0.0; mechanics.jacobian_pattern().len()],
             constraint_force: vec![0.0; sizes.coordinates],
-            phi: vec![0.0; sizes.constraints],
             rhs: vec![0.0; layout.unknowns() + sizes.constraints],
             layout,
             mechanics,
@@ -95,36 +98,79 @@ impl<'m> NewtonSystem<'m> {
 
     /// Aᵀ ν with the upper Jacobian.
     pub(crate) fn spread_multipliers(&mut self, nu: &[f64]) {
-        self.constraint_force.fill(0.0);
-        for (&(row, i), a) in self.mechanics.jacobian_pattern().iter().zip(&self.upper) {
-            self.constraint_force[i] += a * nu[row];
-        }
+        self.jacobian.transposed(&self.upper, nu, &mut self.constraint_force);
     }
 
-    /// Puts Φ(q) into the lower rows of the right-hand side and returns the worst one, scaled.
-    pub(crate) fn constraint_rows(&mut self, q: &[f64]) -> Worst {
+    /// (A - A₀)ᵀ ν, where `jacobian` holds A and the upper Jacobian A₀.
+    pub(crate) fn spread_change(&mut self, jacobian: &[f64], nu: &[f64]) {
+        for ((change, a), upper) in self.lower.iter_mut().zip(jacobian).zip(&self.upper) {
+            *change = a - upper;
+        }
+        self.jacobian.transposed(&self.lower, nu, &mut self.constraint_force);
+    }
+
+    /// Puts Φ(q) into the lower rows of the right-hand side.
+    pub(crate) fn constraint_rows(&mut self, q: &[f64]) {
         let n = self.layout.unknowns();
-        self.mechanics.constraints(q, &mut self.phi);
-        let mut worst = Worst { residual: 0.0, row: n };
-        for (j, (phi, scale)) in self.phi.iter().zip(self.mechanics.constraint_scales()).enumerate() {
-            self.rhs[n + j] = *phi;
-            worst = worst.or(phi.abs() / scale, n + j);
+        self.mechanics.constraints(q, &mut self.rhs[n..]);
+    }
+
+    /// Largest scaled row of the right-hand side: dynamic rows relative to `scale`, constraints to the size of their
+    /// members. NaN if any row is.
+    pub(crate) fn largest(&self, scale: f64) -> f64 {
+        let (dynamic, constraints) = self.rhs.split_at(self.layout.unknowns());
+        let (mut largest, mut sum) = (0.0_f64, 0.0);
+        for r in dynamic {
+            largest = largest.max(r.abs());
+            sum += r;
+        }
+        let (mut violated, mut rest) = (0.0_f64, 0.0);
+        for (phi, scale) in constraints.iter().zip(&self.constraint_scales) {
+            violated = violated.max((phi * scale).abs());
+            rest += phi;
+        }
+        // `max` overlooks NaN, sums do not.
+        if (sum + rest).is_nan() { f64::NAN } else { (largest / floor(scale)).max(violated) }
+    }
+
+    /// The row that [`NewtonSystem::largest`] speaks of.
+    #[cold]
+    pub(crate) fn worst(&self, scale: f64) -> Worst {
+        let n = self.layout.unknowns();
+        let mut worst = Worst { residual: 0.0, row: 0 };
+        for (row, r) in self.rhs.iter().enumerate() {
+            let scaled = if row < n { r / floor(scale) } else { r * self.constraint_scales[row - n] };
+            worst = worst.or(scaled.abs(), row);
         }
         worst
-    }
-
-    /// Worst dynamic row of the right-hand side relative to `scale`.
-    pub(crate) fn dynamic_rows(&self, scale: f64) -> Worst {
-        let rows = &self.rhs[..self.layout.unknowns()];
-        let scale = scale.max(f64::MIN_POSITIVE);
-        rows.iter()
-            .enumerate()
-            .fold(Worst { residual: 0.0, row: 0 }, |worst, (i, r)| worst.or(r.abs() / scale, i))
     }
 
     /// Factors the matrix at a state and replaces the right-hand side r by the solution of `K x = r`.
     /// `lower_q` is where A₁ is taken; `nu` weighs the curvature if the system has it.
     pub(crate) fn solve(
+        &mut self,
+        at: At<'_>,
+        factors: Factors,
+        lower_q: &[f64],
+        nu: &[f64],
+    ) -> Result<(), SparseError> {
+        self.factor(at, factors, lower_q, nu)?;
+        self.solve_checked()
+    }
+
+    /// As [`NewtonSystem::apply`] right after a factorisation, with a check of the linear residual.
+    pub(crate) fn solve_checked(&mut self) -> Result<(), SparseError> {
+        self.saddle.solve(&mut self.rhs).map(drop)
+    }
+
+    /// Replaces the right-hand side r by K⁻¹ r with the factors of the last [`NewtonSystem::factor`], whatever has changed
+    /// since.
+    pub(crate) fn apply(&mut self) -> Result<(), SparseError> {
+        self.saddle.apply(&mut self.rhs)
+    }
+
+    /// Factors the matrix at a state; see [`NewtonSystem::solve`].
+    pub(crate) fn factor(
         &mut self,
         at: At<'_>,
         factors: Factors,
@@ -147,8 +193,7 @@ impl<'m> NewtonSystem<'m> {
             self.saddle.add_leading(CURVATURE, 1.0, &self.curvature_values);
         }
         self.saddle.set_jacobian(&self.upper, &self.lower);
-        self.saddle.factor()?;
-        self.saddle.solve(&mut self.rhs).map(drop)
+        self.saddle.factor()
     }
 
     /// Words for a row: its name, and the cables there.
@@ -184,9 +229,11 @@ impl Worst {
         if residual <= self.residual || self.residual.is_nan() { self } else { Self { residual, row } }
     }
 
-    pub(crate) fn max(self, other: Self) -> Self {
-        self.or(other.residual, other.row)
-    }
+}
+
+/// A scale that may be divided by.
+fn floor(scale: f64) -> f64 {
+    scale.max(f64::MIN_POSITIVE)
 }
 
 /// Why an iteration failed, before it is put into words.

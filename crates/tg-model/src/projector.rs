@@ -9,11 +9,12 @@
 //! definite on the null space of A, if tg-sparse has its `pivoting` feature, which the solver crates switch on; without
 //! it a coordinate without mass is an error that names it.
 
-use tg_sparse::{SaddleSystem, SparseError};
+use tg_sparse::SparseError;
 use thiserror::Error;
 
 use crate::inertia::Inertia;
-use crate::layout::Layout;
+use crate::inertial_system::InertialSystem;
+use crate::jacobian::Jacobian;
 use crate::mechanics::Mechanics;
 
 /// Scaled constraint residual at which positions count as consistent: a few roundings of a squared length.
@@ -21,6 +22,9 @@ const CONSISTENT: f64 = 4.0 * f64::EPSILON;
 /// Scaled residual that is accepted where rounding ends the descent earlier.
 const ACCEPTED: f64 = 1e-13;
 const MAX_ITERATIONS: u32 = 30;
+/// Share of its terms that A q̇ may keep: some roundings. A solve that leaves more is repeated for the rest, then made
+/// with every check.
+const RATE_LEFT: f64 = 1e-13;
 
 /// By how much a projection moved a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,11 +69,10 @@ pub enum ProjectionError {
 /// Projects states of one system; all buffers are made once.
 pub struct Projector<'m> {
     mechanics: &'m dyn Mechanics,
-    layout: Layout,
+    system: InertialSystem<'m>,
     inertia: Inertia,
-    system: SaddleSystem,
-    mass: Vec<f64>,
-    jacobian: Vec<f64>,
+    jacobian: Jacobian,
+    unknowns: usize,
     phi: Vec<f64>,
     rhs: Vec<f64>,
 }
@@ -80,20 +83,15 @@ impl<'m> Projector<'m> {
     /// # Errors
     /// The pattern cannot be analysed.
     pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
-        let layout = Layout::new(mechanics);
-        let pattern: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
-        let saddle = layout
-            .saddle(mechanics, &[&pattern])
-            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
+        let system = InertialSystem::new(mechanics)?;
         let sizes = mechanics.sizes();
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
-            system: SaddleSystem::new(saddle),
-            mass: mechanics.mass().iter().map(|e| e.value).collect(),
-            jacobian: vec![0.0; mechanics.jacobian_pattern().len()],
+            jacobian: Jacobian::new(mechanics),
+            unknowns: system.layout().unknowns(),
             phi: vec![0.0; sizes.constraints],
-            rhs: vec![0.0; layout.unknowns() + sizes.constraints],
-            layout,
+            rhs: vec![0.0; system.size()],
+            system,
             mechanics,
         })
     }
@@ -103,9 +101,26 @@ impl<'m> Projector<'m> {
     /// # Errors
     /// The matrix is singular or not finite.
     pub fn velocity(&mut self, q: &[f64], v: &mut [f64]) -> Result<Moved, ProjectionError> {
-        self.factor(q)?;
-        let n = self.layout.unknowns();
+        self.system.factor(q)?;
+        let n = self.unknowns;
         self.rhs[..n].fill(0.0);
+        self.correct_velocity(v)
+    }
+
+    /// Velocities after an impulse on the free components \[N s\]: `v` becomes the velocity on A(q) q̇ = 0 nearest to
+    /// v + M⁻¹ impulse in kinetic energy, prescribed components kept. `impulse` is given the values of A(q) and fills in
+    /// one number per free component.
+    ///
+    /// # Errors
+    /// The matrix is singular or not finite.
+    pub fn velocity_after_impulse(
+        &mut self,
+        q: &[f64],
+        impulse: impl FnOnce(&[f64], &mut [f64]),
+        v: &mut [f64],
+    ) -> Result<Moved, ProjectionError> {
+        self.system.factor(q)?;
+        impulse(self.system.jacobian(), &mut self.rhs);
         self.correct_velocity(v)
     }
 
@@ -120,7 +135,7 @@ impl<'m> Projector<'m> {
         p: &[f64],
         v: &mut [f64],
     ) -> Result<Moved, ProjectionError> {
-        self.factor(q)?;
+        self.system.factor(q)?;
         for ((rhs, &p), &i) in self.rhs.iter_mut().zip(p).zip(self.mechanics.free()) {
             *rhs = p - self.inertia.row(i, v);
         }
@@ -140,20 +155,12 @@ impl<'m> Projector<'m> {
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), ProjectionError> {
-        self.factor(q)?;
-        let n = self.layout.unknowns();
+        self.system.factor(q)?;
         for (rhs, &i) in self.rhs.iter_mut().zip(self.mechanics.free()) {
             *rhs = force[i] - self.inertia.row(i, a);
         }
-        self.constraint_rate(a);
-        for ((rhs, rate), moving) in self.rhs[n..].iter_mut().zip(rates).zip(&self.phi) {
-            *rhs = -rate - moving;
-        }
-        self.solve()?;
-        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
-            a[i] += delta;
-        }
-        lambda.copy_from_slice(&self.rhs[n..]);
+        self.solve_for(a, Some(rates))?;
+        lambda.copy_from_slice(&self.rhs[self.unknowns..]);
         Ok(())
     }
 
@@ -168,7 +175,7 @@ impl<'m> Projector<'m> {
     /// The matrix is singular or not finite, or Newton's method does not converge.
     pub fn position(&mut self, q: &mut [f64]) -> Result<Moved, ProjectionError> {
         let start = q.to_vec();
-        let n = self.layout.unknowns();
+        let n = self.unknowns;
         let (mut before, mut iterations) = (f64::INFINITY, 0);
         loop {
             let (worst, residual) = self.constraint_residual(q);
@@ -182,12 +189,12 @@ impl<'m> Projector<'m> {
                 return Err(ProjectionError::NotConverged { constraint, residual, iterations });
             }
             before = residual;
-            self.factor(q)?;
+            self.system.factor(q)?;
             self.rhs[..n].fill(0.0);
             for (rhs, phi) in self.rhs[n..].iter_mut().zip(&self.phi) {
                 *rhs = -phi;
             }
-            self.solve()?;
+            self.system.solve(&mut self.rhs)?;
             for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
                 q[i] += delta;
             }
@@ -207,7 +214,7 @@ impl<'m> Projector<'m> {
     /// Scaled residual of a constraint that the rounding of its coordinates can leave, from the last Jacobian: large
     /// where a structure is small against its distance from the origin.
     fn rounding(&self, row: usize, q: &[f64]) -> f64 {
-        let entries = self.mechanics.jacobian_pattern().iter().zip(&self.jacobian);
+        let entries = self.mechanics.jacobian_pattern().iter().zip(self.system.jacobian());
         let sum: f64 = entries.filter(|((j, _), _)| *j == row).map(|(&(_, i), a)| (a * q[i]).abs()).sum();
         let scale = self.mechanics.constraint_scales().get(row).copied().unwrap_or(1.0);
         4.0 * f64::EPSILON * sum / scale
@@ -215,56 +222,68 @@ impl<'m> Projector<'m> {
 
     /// Systems that needed the pivoting factorisation so far.
     pub fn fallbacks(&self) -> u64 {
-        self.system.counts().fallbacks
-    }
-
-    fn factor(&mut self, q: &[f64]) -> Result<(), ProjectionError> {
-        self.mechanics.jacobian(q, &mut self.jacobian);
-        self.system.clear_leading();
-        self.system.add_leading(0, 1.0, &self.mass);
-        self.system.set_jacobian(&self.jacobian, &self.jacobian);
-        let result = self.system.factor();
-        self.named(result)
-    }
-
-    fn solve(&mut self) -> Result<(), ProjectionError> {
-        let result = self.system.solve(&mut self.rhs).map(drop);
-        self.named(result)
-    }
-
-    fn named<T>(&self, result: Result<T, SparseError>) -> Result<T, ProjectionError> {
-        result.map_err(|source| ProjectionError::Solver {
-            culprit: self.layout.name(self.mechanics, &source),
-            source,
-        })
+        self.system.fallbacks()
     }
 
     /// Solves for the correction with the momentum part of the right-hand side in place.
     fn correct_velocity(&mut self, v: &mut [f64]) -> Result<Moved, ProjectionError> {
-        let n = self.layout.unknowns();
-        self.constraint_rate(v);
-        for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
-            *rhs = -rate;
-        }
-        self.solve()?;
-        let mut moved = Moved { largest: 0.0, coordinate: 0, iterations: 1, residual: 0.0 };
+        let residual = self.solve_for(v, None)?;
+        let mut moved = Moved { largest: 0.0, coordinate: 0, iterations: 1, residual };
         for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
-            v[i] += delta;
             if delta.abs() > moved.largest {
                 (moved.largest, moved.coordinate) = (delta.abs(), i);
             }
         }
-        self.constraint_rate(v);
-        moved.residual = self.phi.iter().fold(0.0, |worst, rate| worst.max(rate.abs()));
         Ok(moved)
     }
 
-    /// A q̇ of all coordinates into `phi`.
-    fn constraint_rate(&mut self, v: &[f64]) {
-        self.phi.fill(0.0);
-        for (&(row, i), a) in self.mechanics.jacobian_pattern().iter().zip(&self.jacobian) {
-            self.phi[row] += a * v[i];
+    /// Corrects the free components of x so that A x = -rates, with the momentum part of the right-hand side in place,
+    /// which is replaced by the correction and the multipliers. The largest |A x + rates| left.
+    fn solve_for(&mut self, x: &mut [f64], rates: Option<&[f64]>) -> Result<f64, ProjectionError> {
+        let n = self.unknowns;
+        self.rate_left(x, rates);
+        for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
+            *rhs = -rate;
         }
+        let checked = self.system.solve(&mut self.rhs)?;
+        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
+            x[i] += delta;
+        }
+        let (left, size) = self.rate_left(x, rates);
+        if checked || left <= RATE_LEFT * size {
+            return Ok(left);
+        }
+        self.refine(x, rates)
+    }
+
+    /// Once more for what a solve without checks left, with every check.
+    #[cold]
+    fn refine(&mut self, x: &mut [f64], rates: Option<&[f64]>) -> Result<f64, ProjectionError> {
+        self.system.factor_robustly()?;
+        let n = self.unknowns;
+        let mut more = vec![0.0; self.rhs.len()];
+        for (more, rate) in more[n..].iter_mut().zip(&self.phi) {
+            *more = -rate;
+        }
+        self.system.solve(&mut more)?;
+        for (&i, delta) in self.mechanics.free().iter().zip(&more) {
+            x[i] += delta;
+        }
+        self.rhs.iter_mut().zip(&more).for_each(|(x, d)| *x += d);
+        Ok(self.rate_left(x, rates).0)
+    }
+
+    /// A x + rates into `phi`: the largest of them, and the largest sum of the magnitudes of its terms.
+    fn rate_left(&mut self, x: &[f64], rates: Option<&[f64]>) -> (f64, f64) {
+        let size = self.jacobian.product(self.system.jacobian(), x, &mut self.phi);
+        let mut largest = 0.0_f64;
+        if let Some(rates) = rates {
+            self.phi.iter_mut().zip(rates).for_each(|(sum, rate)| *sum += rate);
+        }
+        for rate in &self.phi {
+            largest = largest.max(rate.abs());
+        }
+        (largest, size)
     }
 }
 

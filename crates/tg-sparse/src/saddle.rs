@@ -57,6 +57,8 @@ pub struct SaddleSystem {
     values: Vec<f64>,
     lu: StaticLu,
     factors: Factors,
+    /// Whether the values are those that were factored.
+    is_current: bool,
     counts: Counts,
     vectors: Vectors,
     #[cfg(feature = "pivoting")]
@@ -72,6 +74,7 @@ impl SaddleSystem {
             values: vec![0.0; pattern.entries() + 1],
             lu: StaticLu::new(&pattern.symbolic),
             factors: Factors::None,
+            is_current: false,
             counts: Counts::default(),
             vectors: Vectors::new(size),
             #[cfg(feature = "pivoting")]
@@ -94,7 +97,7 @@ impl SaddleSystem {
 
     /// `H ← 0`.
     pub fn clear_leading(&mut self) {
-        self.factors = Factors::None;
+        self.is_current = false;
         for &slot in &self.pattern.slots.leading_slots {
             self.values[slot as usize] = 0.0;
         }
@@ -110,7 +113,7 @@ impl SaddleSystem {
         assert!(group < groups.len(), "leading group {group} of {}", groups.len());
         let slots = &groups[group];
         assert_eq!(values.len(), slots.len(), "values of leading group {group}");
-        self.factors = Factors::None;
+        self.is_current = false;
         for (&slot, value) in slots.iter().zip(values) {
             self.values[slot as usize] += factor * value;
         }
@@ -126,7 +129,7 @@ impl SaddleSystem {
         let slots = &self.pattern.slots;
         assert_eq!(upper.len(), slots.upper.len(), "values of the upper Jacobian");
         assert_eq!(lower.len(), slots.lower.len(), "values of the lower Jacobian");
-        self.factors = Factors::None;
+        self.is_current = false;
         if slots.jacobian_repeats {
             for &slot in slots.upper.iter().chain(&slots.lower) {
                 self.values[slot as usize] = 0.0;
@@ -174,6 +177,7 @@ impl SaddleSystem {
     pub fn factor(&mut self) -> Result<(), SparseError> {
         self.counts.factorisations += 1;
         self.factors = Factors::None;
+        self.is_current = true;
         let trouble = match self.lu.factor(&self.pattern, &self.values, PivotRule::Check) {
             Ok(()) => self.probe(),
             Err(trouble) => Some(trouble),
@@ -204,8 +208,8 @@ impl SaddleSystem {
         assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
         let mut steps = 0;
         let mut outcome = match self.factors {
-            Factors::None => return Err(SparseError::NotFactored),
-            factors => self.refine(factors, rhs),
+            factors if factors != Factors::None && self.is_current => self.refine(factors, rhs),
+            _ => return Err(SparseError::NotFactored),
         };
         if !outcome.is_good() {
             if let Some(position) = self.vectors.right.iter().position(|b| !b.is_finite()) {
@@ -231,14 +235,50 @@ impl SaddleSystem {
         Ok(SolveReport { residual: outcome.error, refinements, fell_back })
     }
 
+    /// Applies the factors of the last [`factor`](Self::factor) as they are, whatever values were set since, and checks
+    /// nothing: the correction of an iteration that looks at its own residual. `rhs` holds `[f; g]` on entry and
+    /// `[x; y]` on return.
+    ///
+    /// # Errors
+    /// [`SparseError::NotFactored`]; the pivoting factors fail.
+    ///
+    /// # Panics
+    /// When `rhs` has another length than n + m.
+    #[track_caller]
+    pub fn apply(&mut self, rhs: &mut [f64]) -> Result<(), SparseError> {
+        assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
+        let Self { pattern, lu, vectors, .. } = self;
+        let (order, x) = (&pattern.symbolic.order, &mut vectors.solution);
+        for (x, &variable) in x.iter_mut().zip(order) {
+            *x = rhs[variable as usize];
+        }
+        match self.factors {
+            Factors::None => return Err(SparseError::NotFactored),
+            Factors::Static => lu.solve(&pattern.symbolic, x),
+            #[cfg(feature = "pivoting")]
+            Factors::Pivoting => {
+                if let Some(pivoting) = &mut self.pivoting {
+                    pivoting.solve(x);
+                }
+            }
+            #[cfg(not(feature = "pivoting"))]
+            Factors::Pivoting => return Err(SparseError::NotFactored),
+        }
+        for (x, &variable) in x.iter().zip(order) {
+            rhs[variable as usize] = *x;
+        }
+        self.counts.solves += 1;
+        Ok(())
+    }
+
     /// Signs of the eigenvalues of `H` on the null space of `A`, from the pivots of the last
-    /// [`factor`](Self::factor). Meant for symmetric `H` and `A₀ = A₁` of full rank, which is not checked. `None` without
+    /// [`factor`](Self::factor), if the values are still the same. Meant for symmetric `H` and `A₀ = A₁` of full rank, which is not checked. `None` without
     /// factors, or with those of the pivoting fallback, whose pivots do not tell.
     #[must_use]
     pub fn inertia(&self) -> Option<Inertia> {
         match self.factors {
-            Factors::Static => from_pivots(&self.pattern, self.lu.reciprocal_pivots()),
-            Factors::None | Factors::Pivoting => None,
+            Factors::Static if self.is_current => from_pivots(&self.pattern, self.lu.reciprocal_pivots()),
+            _ => None,
         }
     }
 
