@@ -38,7 +38,7 @@ use crate::system::{Factors, Failure, NewtonSystem, Worst};
 const FASTEST: f64 = 0.02;
 /// What the last correction, whose residual is not looked at, is to leave of the tolerance: with full Newton steps it would
 /// have been as little.
-const POLISHED: f64 = 0.01;
+const POLISHED: f64 = 1e-3;
 /// A residual that falls less than this in an iteration asks for new factors.
 const SLOW: f64 = 0.1;
 /// A step that took more iterations leaves the next one without factors.
@@ -178,7 +178,9 @@ impl<'m> Symplectic<'m> {
                 self.correct();
                 residual *= slowest;
             }
-            if residual <= self.options.tolerance || correction <= resolution {
+            // Rounding ends the descent at some residual below the tolerance.
+            let stands = residual <= self.options.tolerance && fell > SLOW;
+            if last_one || stands || residual <= POLISHED * self.options.tolerance || correction <= resolution {
                 return self.accept(state, h, frozen, last, Converged { iterations, residual, frozen, forced: 0 }, scale);
             }
             if iterations == self.options.max_iterations {
@@ -350,13 +352,8 @@ impl<'m> Symplectic<'m> {
         taut.iter().zip(taut_by_law).filter(|(a, b)| *a != *b).count() as u32
     }
 
-    /// Momentum (53b), its projection, and the new state. With (54) the force drops out,
-    ///
-    /// ```text
-    /// p_{k+1} = 2 Ḿ Δ/h - p_k + (A(q_{k+1}) - A(q_k))ᵀ ν/h
-    /// ```
-    /// so that it need not be evaluated at the last iterate, and of the multipliers' large forces only the small
-    /// difference enters.
+    /// Momentum (53b), its projection, and the new state. The force is that of the iterate before the last correction, which
+    /// moved it by less than its rounding.
     fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
         let Self { system, projector, work: w, .. } = self;
         for i in 0..w.delta.len() {
@@ -374,14 +371,13 @@ impl<'m> Symplectic<'m> {
         projector.velocity_after_impulse(
             &w.q_end,
             |jacobian, impulse| {
-                system.spread_change(jacobian, &w.nu);
+                system.spread(jacobian, &w.nu);
                 for (k, &i) in system.mechanics.free().iter().enumerate() {
-                    let mean = system.inertia.row(i, &w.delta) / h;
-                    let change = mean - w.p[k] + system.constraint_force[i] / h;
+                    let change = 0.5 * h * w.force[i] + system.constraint_force[i] / h;
+                    w.p[k] = system.inertia.row(i, &w.delta) / h + change;
                     // Of the supports: their mean velocity against that at the end.
                     let supports = if moving { system.inertia.row(i, &w.v_mid) } else { 0.0 };
                     impulse[k] = change + supports;
-                    w.p[k] = mean + change;
                 }
             },
             &mut w.v_end,

@@ -101,12 +101,9 @@ impl<'m> NewtonSystem<'m> {
         self.jacobian.transposed(&self.upper, nu, &mut self.constraint_force);
     }
 
-    /// (A - A₀)ᵀ ν, where `jacobian` holds A and the upper Jacobian A₀.
-    pub(crate) fn spread_change(&mut self, jacobian: &[f64], nu: &[f64]) {
-        for ((change, a), upper) in self.lower.iter_mut().zip(jacobian).zip(&self.upper) {
-            *change = a - upper;
-        }
-        self.jacobian.transposed(&self.lower, nu, &mut self.constraint_force);
+    /// Aᵀ ν with these values of A.
+    pub(crate) fn spread(&mut self, jacobian: &[f64], nu: &[f64]) {
+        self.jacobian.transposed(jacobian, nu, &mut self.constraint_force);
     }
 
     /// Puts Φ(q) into the lower rows of the right-hand side.

@@ -10,15 +10,15 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::form::{Form, FormList};
+use crate::form::{Form, Forms};
 use crate::law::Tension;
 use crate::mechanics::At;
 use crate::tension::Law;
 
-/// Cables of one law, structure of arrays.
+/// Cables of one law and one kind of form, structure of arrays.
 #[derive(Clone, Debug)]
-pub(crate) struct CableSet<L> {
-    forms: FormList,
+pub(crate) struct CableSet<L, F> {
+    forms: F,
     laws: Vec<L>,
     /// Input that is the rest length (the cable's id).
     input: Vec<u32>,
@@ -29,10 +29,10 @@ pub(crate) struct CableSet<L> {
     pairs: Vec<(f64, u32, u32)>,
 }
 
-impl<L> Default for CableSet<L> {
+impl<L, F: Forms> Default for CableSet<L, F> {
     fn default() -> Self {
         Self {
-            forms: FormList::new(),
+            forms: F::default(),
             laws: Vec::new(),
             input: Vec::new(),
             switch: Vec::new(),
@@ -51,7 +51,7 @@ pub(crate) struct Line<const D: usize> {
     velocity: SVector<f64, D>,
 }
 
-impl<L: Law> CableSet<L> {
+impl<L: Law, F: Forms> CableSet<L, F> {
     pub(crate) fn push<const D: usize>(
         &mut self,
         id: usize,
@@ -91,17 +91,26 @@ impl<L: Law> CableSet<L> {
     }
 
     fn tension<const D: usize>(&self, i: usize, line: &Line<D>, at: At<'_>) -> Tension {
-        let taut = at.taut.map(|flags| flags.get(self.switch[i] as usize).copied().unwrap_or(true));
-        self.laws[i].tension(line.length, line.rate, at.u[self.input[i] as usize], taut)
+        self.laws[i].tension(line.length, line.rate, at.u[self.input[i] as usize], self.taut(i, at))
     }
 
+    /// What a given active set says of a cable.
+    #[inline(always)]
+    fn taut(&self, i: usize, at: At<'_>) -> Option<bool> {
+        at.taut.map(|flags| flags.get(self.switch[i] as usize).copied().unwrap_or(true))
+    }
+
+    /// As [`CableSet::line`] and the tension's direction, with a single division.
     pub(crate) fn force<const D: usize>(&self, at: At<'_>, f: &mut [f64]) {
         let damped = self.damped();
-        for i in 0..self.laws.len() {
-            let line = self.line::<D>(i, at, damped);
-            let tension = self.tension(i, &line, at).force;
+        for (i, law) in self.laws.iter().enumerate() {
+            let l = self.forms.eval::<D>(i, at.q);
+            let length = l.dot(&l).sqrt();
+            let reciprocal = 1.0 / length;
+            let rate = if damped { l.dot(&self.forms.eval::<D>(i, at.v)) * reciprocal } else { 0.0 };
+            let tension = law.tension(length, rate, at.u[self.input[i] as usize], self.taut(i, at)).force;
             if tension != 0.0 {
-                self.forms.spread(i, &(line.direction * -tension), f);
+                self.forms.spread(i, &(l * (-tension * reciprocal)), f);
             }
         }
     }

@@ -1,9 +1,9 @@
-//! All cables of a structure, partitioned by law so that no loop branches per cable.
+//! All cables of a structure, partitioned by law and by kind of form so that no loop branches per cable.
 
 use std::sync::Arc;
 
 use crate::cable_set::{CableSet, damping_block, stiffness_block};
-use crate::form::Form;
+use crate::form::{Form, FormList, Forms, NodePairs};
 use crate::law::CableLaw;
 use crate::mechanics::At;
 use crate::placed::Cable;
@@ -24,32 +24,37 @@ pub struct CableState {
     pub slack: bool,
 }
 
-/// All cables that touch a free coordinate, one set per law.
+/// All cables that touch a free coordinate.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cables {
-    linear: CableSet<LinearLaw<false, false>>,
-    linear_damped: CableSet<LinearLaw<false, true>>,
-    slacking: CableSet<LinearLaw<true, false>>,
-    slacking_damped: CableSet<LinearLaw<true, true>>,
-    user: CableSet<UserLaw>,
+    between_nodes: Laws<NodePairs>,
+    between_points: Laws<FormList>,
     /// Cable of each switch.
     switches: Vec<usize>,
+}
+
+/// Cables of one kind of form, one set per law.
+#[derive(Clone, Debug, Default)]
+struct Laws<F: Forms> {
+    linear: CableSet<LinearLaw<false, false>, F>,
+    linear_damped: CableSet<LinearLaw<false, true>, F>,
+    slacking: CableSet<LinearLaw<true, false>, F>,
+    slacking_damped: CableSet<LinearLaw<true, true>, F>,
+    user: CableSet<UserLaw, F>,
 }
 
 /// Calls a method on each set in turn, in the one order that fixes all entry orders.
 macro_rules! each_set {
     ($cables:expr, |$set:ident| $body:expr) => {{
-        let $set = &$cables.linear;
-        $body;
-        let $set = &$cables.linear_damped;
-        $body;
-        let $set = &$cables.slacking;
-        $body;
-        let $set = &$cables.slacking_damped;
-        $body;
-        let $set = &$cables.user;
-        $body;
+        each_set!($cables.between_nodes, [linear, linear_damped, slacking, slacking_damped, user], |$set| $body);
+        each_set!($cables.between_points, [linear, linear_damped, slacking, slacking_damped, user], |$set| $body);
     }};
+    ($laws:expr, [$($law:ident),*], |$set:ident| $body:expr) => {
+        $(
+            let $set = &$laws.$law;
+            $body;
+        )*
+    };
 }
 
 impl Cables {
@@ -73,23 +78,13 @@ impl Cables {
         law: &CableLaw,
         pairs: impl Fn(usize, usize) -> bool,
     ) {
-        match *law {
-            CableLaw::Linear { stiffness, damping: 0.0 } => {
-                self.linear.push(id, 0, form, LinearLaw { stiffness, damping: 0.0 }, pairs);
-            }
-            CableLaw::Linear { stiffness, damping } => {
-                self.linear_damped.push(id, 0, form, LinearLaw { stiffness, damping }, pairs);
-            }
-            CableLaw::Slacking { stiffness, damping } => {
-                let switch = self.switches.len();
-                self.switches.push(id);
-                if damping == 0.0 {
-                    self.slacking.push(id, switch, form, LinearLaw { stiffness, damping }, pairs);
-                } else {
-                    self.slacking_damped.push(id, switch, form, LinearLaw { stiffness, damping }, pairs);
-                }
-            }
-            CableLaw::User(ref law) => self.user.push(id, 0, form, UserLaw(Arc::clone(law)), pairs),
+        let switch = self.switches.len();
+        if let CableLaw::Slacking { .. } = law {
+            self.switches.push(id);
+        }
+        match NodePairs::ends(form) {
+            Some(_) => self.between_nodes.push(id, switch, form, law, pairs),
+            None => self.between_points.push(id, switch, form, law, pairs),
         }
     }
 
@@ -139,8 +134,10 @@ impl Cables {
     }
 
     pub(crate) fn active_set<const D: usize>(&self, at: At<'_>, taut: &mut [bool]) {
-        self.slacking.active_set::<D>(at, taut);
-        self.slacking_damped.active_set::<D>(at, taut);
+        self.between_nodes.slacking.active_set::<D>(at, taut);
+        self.between_nodes.slacking_damped.active_set::<D>(at, taut);
+        self.between_points.slacking.active_set::<D>(at, taut);
+        self.between_points.slacking_damped.active_set::<D>(at, taut);
     }
 
     pub(crate) fn energy<const D: usize>(&self, q: &[f64], u: &[f64]) -> f64 {
@@ -153,6 +150,33 @@ impl Cables {
         let mut damped = false;
         each_set!(self, |set| damped |= set.damped());
         damped
+    }
+}
+
+impl<F: Forms> Laws<F> {
+    fn push<const D: usize>(
+        &mut self,
+        id: usize,
+        switch: usize,
+        form: &Form<D>,
+        law: &CableLaw,
+        pairs: impl Fn(usize, usize) -> bool,
+    ) {
+        match *law {
+            CableLaw::Linear { stiffness, damping: 0.0 } => {
+                self.linear.push(id, 0, form, LinearLaw { stiffness, damping: 0.0 }, pairs);
+            }
+            CableLaw::Linear { stiffness, damping } => {
+                self.linear_damped.push(id, 0, form, LinearLaw { stiffness, damping }, pairs);
+            }
+            CableLaw::Slacking { stiffness, damping: 0.0 } => {
+                self.slacking.push(id, switch, form, LinearLaw { stiffness, damping: 0.0 }, pairs);
+            }
+            CableLaw::Slacking { stiffness, damping } => {
+                self.slacking_damped.push(id, switch, form, LinearLaw { stiffness, damping }, pairs);
+            }
+            CableLaw::User(ref law) => self.user.push(id, 0, form, UserLaw(Arc::clone(law)), pairs),
+        }
     }
 }
 

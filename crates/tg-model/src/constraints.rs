@@ -8,19 +8,31 @@
 
 use nalgebra::SVector;
 
-use crate::form::{Form, node};
+use crate::form::{Form, NodePairs, node};
 use crate::mechanics::HessianEntry;
 use crate::parts::MemberId;
 
 /// Intrinsic constraints (dot products), then extrinsic ones (linear), in the order of the rows of Φ.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints {
+    /// Of all dot products, those that fix a distance of two nodes: every bar, most of a type RR…R.
+    distances: Vec<Distance>,
+    /// Row of each other dot product.
+    dot_rows: Vec<u32>,
     dot_start: Vec<u32>,
     dot_terms: Vec<DotTerm>,
     dot_values: Vec<f64>,
     linear_start: Vec<u32>,
     linear_terms: Vec<(u32, f64)>,
     scales: Vec<f64>,
+}
+
+/// Φ = |q_b - q_a|² - c.
+#[derive(Clone, Copy, Debug)]
+struct Distance {
+    row: u32,
+    nodes: [u32; 2],
+    value: f64,
 }
 
 /// Weights of one node in the two forms.
@@ -111,6 +123,8 @@ impl Constraints {
     /// Flattens; dot products must come before linear constraints.
     pub(crate) fn new<const D: usize>(list: &[Constraint<D>]) -> Self {
         let mut all = Self {
+            distances: Vec::new(),
+            dot_rows: Vec::new(),
             dot_start: vec![0],
             dot_terms: Vec::new(),
             dot_values: Vec::new(),
@@ -118,9 +132,9 @@ impl Constraints {
             linear_terms: Vec::new(),
             scales: list.iter().map(Constraint::scale).collect(),
         };
-        for constraint in list {
+        for (row, constraint) in list.iter().enumerate() {
             match constraint {
-                Constraint::Dot { a, b, value, .. } => all.push_dot(a, b, *value),
+                Constraint::Dot { a, b, value, .. } => all.push_dot(row, a, b, *value),
                 Constraint::Linear { terms, .. } => {
                     all.linear_terms.extend(terms.iter().map(|&(i, w)| (i as u32, w)));
                     all.linear_start.push(all.linear_terms.len() as u32);
@@ -130,7 +144,14 @@ impl Constraints {
         all
     }
 
-    fn push_dot<const D: usize>(&mut self, a: &Form<D>, b: &Form<D>, value: f64) {
+    fn push_dot<const D: usize>(&mut self, row: usize, a: &Form<D>, b: &Form<D>, value: f64) {
+        let row = row as u32;
+        if let (Some(nodes), true) = (NodePairs::ends(a), a == b) {
+            let nodes = nodes.map(|node| node as u32);
+            self.distances.push(Distance { row, nodes, value });
+            return;
+        }
+        self.dot_rows.push(row);
         let weight =
             |form: &Form<D>, n| form.terms().iter().find(|&&(node, _)| node == n).map_or(0.0, |&(_, w)| w);
         let union = Form::<D>::new(a.terms().iter().chain(b.terms()).map(|&(node, _)| (node, 1.0)));
@@ -158,17 +179,27 @@ impl Constraints {
     }
 
     pub(crate) fn residual<const D: usize>(&self, q: &[f64], phi: &mut [f64]) {
-        let (dot, linear) = phi.split_at_mut(self.dot_values.len());
-        for ((phi, terms), value) in dot.iter_mut().zip(self.dots()).zip(&self.dot_values) {
-            let (a, b) = forms::<D>(terms, q);
-            *phi = a.dot(&b) - value;
+        for distance in &self.distances {
+            let d = distance.vector::<D>(q);
+            phi[distance.row as usize] = d.dot(&d) - distance.value;
         }
-        for (phi, terms) in linear.iter_mut().zip(self.linears()) {
+        for ((&row, terms), value) in self.dot_rows.iter().zip(self.dots()).zip(&self.dot_values) {
+            let (a, b) = forms::<D>(terms, q);
+            phi[row as usize] = a.dot(&b) - value;
+        }
+        for (phi, terms) in phi[self.dot_count()..].iter_mut().zip(self.linears()) {
             *phi = terms.iter().map(|&(i, w)| w * q[i as usize]).sum();
         }
     }
 
     pub(crate) fn jacobian<const D: usize>(&self, q: &[f64], values: &mut [f64]) {
+        let (at_distances, values) = values.split_at_mut(2 * D * self.distances.len());
+        for (distance, values) in self.distances.iter().zip(at_distances.chunks_exact_mut(2 * D)) {
+            let gradient = distance.vector::<D>(q) * 2.0;
+            let (from, to) = values.split_at_mut(D);
+            from.copy_from_slice((-gradient).as_slice());
+            to.copy_from_slice(gradient.as_slice());
+        }
         let mut values = values.iter_mut();
         for terms in self.dots() {
             let (a, b) = forms::<D>(terms, q);
@@ -186,33 +217,58 @@ impl Constraints {
 
     pub(crate) fn jacobian_pattern<const D: usize>(&self) -> Vec<(usize, usize)> {
         let mut pattern = Vec::new();
-        for (row, terms) in self.dots().enumerate() {
+        for distance in &self.distances {
+            for node in distance.nodes {
+                pattern.extend((0..D).map(|d| (distance.row as usize, node as usize * D + d)));
+            }
+        }
+        for (&row, terms) in self.dot_rows.iter().zip(self.dots()) {
             for term in terms {
-                pattern.extend((0..D).map(|d| (row, term.node as usize * D + d)));
+                pattern.extend((0..D).map(|d| (row as usize, term.node as usize * D + d)));
             }
         }
         for (row, terms) in self.linears().enumerate() {
-            pattern.extend(terms.iter().map(|&(i, _)| (row + self.dot_values.len(), i as usize)));
+            pattern.extend(terms.iter().map(|&(i, _)| (row + self.dot_count(), i as usize)));
         }
         pattern
     }
 
     pub(crate) fn hessian<const D: usize>(&self) -> Vec<HessianEntry> {
         let mut entries = Vec::new();
-        for (constraint, terms) in self.dots().enumerate() {
+        let mut push = |constraint: u32, m: u32, n: u32, value: f64| {
+            if value != 0.0 {
+                entries.extend((0..D).map(|d| {
+                    let (row, col) = (m as usize * D + d, n as usize * D + d);
+                    HessianEntry { constraint: constraint as usize, row, col, value }
+                }));
+            }
+        };
+        for &Distance { row, nodes: [a, b], .. } in &self.distances {
+            for (m, n, value) in [(a, a, 2.0), (a, b, -2.0), (b, a, -2.0), (b, b, 2.0)] {
+                push(row, m, n, value);
+            }
+        }
+        for (&row, terms) in self.dot_rows.iter().zip(self.dots()) {
             for m in terms {
                 for n in terms {
-                    let value = m.a * n.b + m.b * n.a;
-                    if value != 0.0 {
-                        entries.extend((0..D).map(|d| {
-                            let (row, col) = (m.node as usize * D + d, n.node as usize * D + d);
-                            HessianEntry { constraint, row, col, value }
-                        }));
-                    }
+                    push(row, m.node, n.node, m.a * n.b + m.b * n.a);
                 }
             }
         }
         entries
+    }
+
+    /// Number of dot products, which come before the linear constraints.
+    fn dot_count(&self) -> usize {
+        self.distances.len() + self.dot_rows.len()
+    }
+}
+
+impl Distance {
+    #[inline(always)]
+    fn vector<const D: usize>(&self, q: &[f64]) -> SVector<f64, D> {
+        let [a, b] = self.nodes.map(|node| node as usize);
+        node::<D>(q, b) - node::<D>(q, a)
     }
 }
 

@@ -52,6 +52,7 @@
 //! A pivot that grows too large needs no limit of its own: it is harmless unless it destroys digits, and then the
 //! residual shows it.
 
+mod block_inverse;
 mod elimination_tree;
 mod error;
 mod front;

@@ -8,6 +8,7 @@
 //! The linear system of each Newton step on eq. (54) with the Jacobian (55): `H = M̌ − h²/2 ∂F̌/∂q̌`, `A₀ = Ǎ(q_k)`,
 //! `A₁ = Ǎ(q_{k+1})`.
 
+use crate::block_inverse::BlockInverse;
 use crate::error::SparseError;
 use crate::inertia::{Inertia, from_pivots};
 use crate::pattern::SaddlePattern;
@@ -56,6 +57,10 @@ pub struct SaddleSystem {
     pattern: SaddlePattern,
     values: Vec<f64>,
     lu: StaticLu,
+    /// The factors in the form that [`SaddleSystem::apply`] wants, made when it is first called.
+    blocks: Option<Box<BlockInverse>>,
+    /// Whether these are of the present factors.
+    has_blocks: bool,
     factors: Factors,
     /// Whether the values are those that were factored.
     is_current: bool,
@@ -73,6 +78,8 @@ impl SaddleSystem {
         Self {
             values: vec![0.0; pattern.entries() + 1],
             lu: StaticLu::new(&pattern.symbolic),
+            blocks: None,
+            has_blocks: false,
             factors: Factors::None,
             is_current: false,
             counts: Counts::default(),
@@ -178,6 +185,7 @@ impl SaddleSystem {
         self.counts.factorisations += 1;
         self.factors = Factors::None;
         self.is_current = true;
+        self.has_blocks = false;
         let trouble = match self.lu.factor(&self.pattern, &self.values, PivotRule::Check) {
             Ok(()) => self.probe(),
             Err(trouble) => Some(trouble),
@@ -236,7 +244,8 @@ impl SaddleSystem {
     }
 
     /// Applies the factors of the last [`factor`](Self::factor) as they are, whatever values were set since, and checks
-    /// nothing: the correction of an iteration that looks at its own residual. `rhs` holds `[f; g]` on entry and
+    /// nothing: the correction of an iteration that looks at its own residual. The first call after a factorisation does
+    /// that work once more, the others take a third of a [`solve`](Self::solve). `rhs` holds `[f; g]` on entry and
     /// `[x; y]` on return.
     ///
     /// # Errors
@@ -247,14 +256,20 @@ impl SaddleSystem {
     #[track_caller]
     pub fn apply(&mut self, rhs: &mut [f64]) -> Result<(), SparseError> {
         assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
-        let Self { pattern, lu, vectors, .. } = self;
+        let Self { pattern, lu, vectors, blocks, has_blocks, .. } = self;
         let (order, x) = (&pattern.symbolic.order, &mut vectors.solution);
         for (x, &variable) in x.iter_mut().zip(order) {
             *x = rhs[variable as usize];
         }
         match self.factors {
             Factors::None => return Err(SparseError::NotFactored),
-            Factors::Static => lu.solve(&pattern.symbolic, x),
+            Factors::Static => {
+                let blocks = blocks.get_or_insert_with(|| Box::new(BlockInverse::new(&pattern.symbolic)));
+                if !std::mem::replace(has_blocks, true) {
+                    blocks.set(&pattern.symbolic, lu.factored());
+                }
+                blocks.apply(&pattern.symbolic, x);
+            }
             #[cfg(feature = "pivoting")]
             Factors::Pivoting => {
                 if let Some(pivoting) = &mut self.pivoting {

@@ -31,6 +31,15 @@ pub(crate) struct StaticLu {
     pub(crate) dropped: Vec<u32>,
 }
 
+/// What a factorisation leaves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factored<'a> {
+    /// Panels of all fronts.
+    pub(crate) panels: &'a [f64],
+    /// Reciprocal pivots.
+    pub(crate) inverse: &'a [f64],
+}
+
 impl StaticLu {
     pub(crate) fn new(symbolic: &Symbolic) -> Self {
         let size = symbolic.order.len();
@@ -115,6 +124,11 @@ impl StaticLu {
             }
         }
         Ok(())
+    }
+
+    /// The last factorisation.
+    pub(crate) fn factored(&self) -> Factored<'_> {
+        Factored { panels: &self.panels, inverse: &self.inverse }
     }
 
     /// `1/u_ii` of the last factorisation, in elimination order.
