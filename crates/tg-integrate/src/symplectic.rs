@@ -24,7 +24,7 @@
 //! The midpoint rule does not damp what it cannot resolve: a damper with h η/2 far above the mass that it acts on
 //! reverses the closing velocity instead of stopping it (measured: factor -0.88 at a ratio of 15). Choose h smaller.
 
-use tg_model::{At, Mechanics, ProjectionError, Projector};
+use tg_model::{At, Mechanics, ProjectionError, Projector, Run};
 use tg_sparse::SparseError;
 
 use crate::check;
@@ -42,7 +42,7 @@ const POLISHED: f64 = 1e-3;
 /// A residual that falls less than this in an iteration asks for new factors.
 const SLOW: f64 = 0.1;
 /// A step that took more iterations leaves the next one without factors.
-const KEEP_UP_TO: u32 = 4;
+fn keep_up_to() -> u32 { static P: std::sync::OnceLock<u32> = std::sync::OnceLock::new(); *P.get_or_init(|| std::env::var("KEEP").ok().and_then(|s| s.parse().ok()).unwrap_or(4)) }
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
 pub struct Symplectic<'m> {
@@ -69,6 +69,8 @@ struct Work {
     q_end: Vec<f64>,
     v_end: Vec<f64>,
     force: Vec<f64>,
+    /// M x over the full coordinates.
+    inertial: Vec<f64>,
     inputs: Vec<f64>,
     taut: Vec<bool>,
     taut_by_law: Vec<bool>,
@@ -122,6 +124,7 @@ impl<'m> Symplectic<'m> {
                 q_end: zeros(),
                 v_end: zeros(),
                 force: zeros(),
+                inertial: zeros(),
                 inputs: vec![0.0; sizes.inputs],
                 taut: vec![false; sizes.switches],
                 taut_by_law: vec![false; sizes.switches],
@@ -224,7 +227,7 @@ impl<'m> Symplectic<'m> {
             return Err(self.failed(Failure::NotConverged, iterations, scale));
         }
         self.finish(state, h).map_err(|error| self.failed(Failure::Projection(error), iterations, scale))?;
-        self.keep(state, h, frozen || iterations > KEEP_UP_TO);
+        self.keep(state, h, frozen || iterations > keep_up_to());
         Ok(Converged { frozen: frozen && forced == 0, forced, ..converged })
     }
 
@@ -292,12 +295,21 @@ impl<'m> Symplectic<'m> {
         w.v_end.copy_from_slice(&state.v);
         mechanics.prescribe(state.t + h, &mut w.q_end, &mut w.v_end);
         mechanics.inputs(state.t + 0.5 * h, &mut w.inputs);
-        for i in 0..w.delta.len() {
-            w.delta[i] = w.q_end[i] - state.q[i];
+        for ((delta, end), q) in w.delta.iter_mut().zip(&w.q_end).zip(&state.q) {
+            *delta = end - q;
         }
-        for (k, &i) in mechanics.free().iter().enumerate() {
-            w.delta[i] = h * state.v[i];
-            w.p[k] = if self.project { self.system.inertia.row(i, &state.v) } else { state.memory[k] };
+        if self.project {
+            self.system.inertia.product(&state.v, &mut w.inertial);
+        } else {
+            let carried = w.p.len();
+            w.p.copy_from_slice(&state.memory[..carried]);
+        }
+        for &Run { coordinate, unknown, len } in self.system.layout.runs() {
+            let full = coordinate..coordinate + len;
+            w.delta[full.clone()].iter_mut().zip(&state.v[full.clone()]).for_each(|(d, v)| *d = h * v);
+            if self.project {
+                w.p[unknown..unknown + len].copy_from_slice(&w.inertial[full]);
+            }
         }
         for (nu, lambda) in w.nu.iter_mut().zip(&state.lambda) {
             *nu = 0.5 * h * h * lambda;
@@ -307,39 +319,50 @@ impl<'m> Symplectic<'m> {
 
     /// Residual (54) into the right-hand side; the largest term of its dynamic rows.
     fn residual(&mut self, state: &State, h: f64, frozen: bool) -> f64 {
-        let w = &mut self.work;
-        for i in 0..w.delta.len() {
-            w.q_end[i] = state.q[i] + w.delta[i];
-            w.q_mid[i] = state.q[i] + 0.5 * w.delta[i];
-            w.v_mid[i] = w.delta[i] / h;
+        let Self { system, work: w, .. } = self;
+        let rate = 1.0 / h;
+        let points = w.q_end.iter_mut().zip(&mut w.q_mid).zip(&mut w.v_mid);
+        for (((end, mid), v), (q, delta)) in points.zip(state.q.iter().zip(&w.delta)) {
+            *end = q + delta;
+            *mid = q + 0.5 * delta;
+            *v = rate * delta;
         }
         let taut = frozen.then_some(w.taut.as_slice());
         let at = At { q: &w.q_mid, v: &w.v_mid, u: &w.inputs, taut };
-        self.system.mechanics.force(at, &mut w.force);
-        self.system.spread_multipliers(&w.nu);
+        system.mechanics.force(at, &mut w.force);
+        system.spread_multipliers(&w.nu);
+        system.inertia.product(&w.delta, &mut w.inertial);
         let half = 0.5 * h * h;
         let mut scale = 0.0_f64;
-        for (k, &i) in self.system.mechanics.free().iter().enumerate() {
-            let inertial = self.system.inertia.row(i, &w.delta);
-            let (momentum, force) = (h * w.p[k], half * w.force[i]);
-            let reaction = self.system.constraint_force[i];
-            scale = scale.max(inertial.abs()).max(momentum.abs()).max(force.abs()).max(reaction.abs());
-            self.system.rhs[k] = inertial - momentum - force - reaction;
+        for &Run { coordinate, unknown, len } in system.layout.runs() {
+            let full = coordinate..coordinate + len;
+            let rows = system.rhs[unknown..unknown + len].iter_mut().zip(&w.p[unknown..]);
+            let terms = w.inertial[full.clone()].iter().zip(&w.force[full.clone()]);
+            for (((r, p), (inertial, force)), reaction) in
+                rows.zip(terms).zip(&system.constraint_force[full])
+            {
+                let (momentum, force) = (h * p, half * force);
+                scale = scale.max(inertial.abs().max(momentum.abs())).max(force.abs().max(reaction.abs()));
+                *r = inertial - momentum - force - reaction;
+            }
         }
-        self.system.constraint_rows(&w.q_end);
+        system.constraint_rows(&w.q_end);
         scale
     }
 
     /// Applies the correction; its largest coordinate change.
     fn correct(&mut self) -> f64 {
-        let (w, rhs) = (&mut self.work, &self.system.rhs);
+        let Self { system, work: w, .. } = self;
+        let (rhs, multipliers) = system.rhs.split_at(system.layout.unknowns());
         let mut largest = 0.0_f64;
-        for (k, &i) in self.system.mechanics.free().iter().enumerate() {
-            w.delta[i] -= rhs[k];
-            largest = largest.max(rhs[k].abs());
+        for &Run { coordinate, unknown, len } in system.layout.runs() {
+            for (delta, change) in w.delta[coordinate..coordinate + len].iter_mut().zip(&rhs[unknown..]) {
+                *delta -= change;
+                largest = largest.max(change.abs());
+            }
         }
-        for (nu, delta) in w.nu.iter_mut().zip(&rhs[self.system.layout.unknowns()..]) {
-            *nu -= delta;
+        for (nu, change) in w.nu.iter_mut().zip(multipliers) {
+            *nu -= change;
         }
         largest
     }
@@ -356,34 +379,45 @@ impl<'m> Symplectic<'m> {
     /// moved it by less than its rounding.
     fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
         let Self { system, projector, work: w, .. } = self;
-        for i in 0..w.delta.len() {
-            w.q_end[i] = state.q[i] + w.delta[i];
+        for ((end, q), delta) in w.q_end.iter_mut().zip(&state.q).zip(&w.delta) {
+            *end = q + delta;
         }
-        for &i in system.mechanics.free() {
-            w.v_end[i] = w.delta[i] / h;
+        for &Run { coordinate, len, .. } in system.layout.runs() {
+            let run = coordinate..coordinate + len;
+            w.v_end[run.clone()].iter_mut().zip(&w.delta[run]).for_each(|(v, delta)| *v = delta / h);
         }
+        // Momentum of the supports' mean velocity against that at the end.
         let moving = system.mechanics.features().moving_supports;
         if moving {
             for i in 0..w.delta.len() {
                 w.v_mid[i] = w.delta[i] / h - w.v_end[i];
             }
+            system.inertia.product(&w.v_mid, &mut w.inertial);
+        } else {
+            w.inertial.fill(0.0);
         }
         projector.velocity_after_impulse(
             &w.q_end,
             |jacobian, impulse| {
                 system.spread(jacobian, &w.nu);
-                for (k, &i) in system.mechanics.free().iter().enumerate() {
-                    let change = 0.5 * h * w.force[i] + system.constraint_force[i] / h;
-                    w.p[k] = system.inertia.row(i, &w.delta) / h + change;
-                    // Of the supports: their mean velocity against that at the end.
-                    let supports = if moving { system.inertia.row(i, &w.v_mid) } else { 0.0 };
-                    impulse[k] = change + supports;
+                let rate = 1.0 / h;
+                for &Run { coordinate, unknown, len } in system.layout.runs() {
+                    let full = coordinate..coordinate + len;
+                    let forces = w.force[full.clone()].iter().zip(&system.constraint_force[full.clone()]);
+                    let impulses = impulse[unknown..unknown + len].iter_mut().zip(&w.inertial[full]);
+                    for ((impulse, supports), (force, reaction)) in impulses.zip(forces) {
+                        *impulse = 0.5 * h * force + rate * reaction + supports;
+                    }
                 }
             },
             &mut w.v_end,
         )?;
         if !self.project {
-            state.memory[..w.p.len()].copy_from_slice(&w.p);
+            // (53b) itself.
+            for (k, &i) in system.mechanics.free().iter().enumerate() {
+                let impulse = 0.5 * h * w.force[i] + system.constraint_force[i] / h;
+                state.memory[k] = system.inertia.row(i, &w.delta) / h + impulse;
+            }
         }
         state.advance_time(h);
         state.q.copy_from_slice(&w.q_end);

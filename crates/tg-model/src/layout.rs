@@ -9,7 +9,19 @@ use crate::mechanics::Mechanics;
 pub struct Layout {
     unknown: Vec<Option<usize>>,
     free: Vec<usize>,
+    runs: Vec<Run>,
     constraints: usize,
+}
+
+/// Free coordinates that follow each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// The first coordinate.
+    pub coordinate: usize,
+    /// The unknown that it is.
+    pub unknown: usize,
+    /// How many.
+    pub len: usize,
 }
 
 impl Layout {
@@ -20,7 +32,19 @@ impl Layout {
         for (k, &i) in mechanics.free().iter().enumerate() {
             unknown[i] = Some(k);
         }
-        Self { unknown, free: mechanics.free().to_vec(), constraints: sizes.constraints }
+        let mut runs: Vec<Run> = Vec::new();
+        for (unknown, &coordinate) in mechanics.free().iter().enumerate() {
+            match runs.last_mut() {
+                Some(run) if run.coordinate + run.len == coordinate => run.len += 1,
+                _ => runs.push(Run { coordinate, unknown, len: 1 }),
+            }
+        }
+        Self { unknown, free: mechanics.free().to_vec(), runs, constraints: sizes.constraints }
+    }
+
+    /// The free coordinates in runs: loops over runs of two slices need no index.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
     }
 
     /// The unknown that a coordinate is; `None` for prescribed ones.

@@ -77,7 +77,7 @@ pub use inertia::Inertia;
 pub use inertial_system::InertialSystem;
 pub use jacobian::Jacobian;
 pub use law::{CableLaw, Tension, TensionLaw};
-pub use layout::Layout;
+pub use layout::{Layout, Run};
 pub use load::{Load, MomentAxes};
 pub use mechanics::{At, Entry, Features, HessianEntry, Mechanics, Sizes};
 pub use model::{Energy, Model};

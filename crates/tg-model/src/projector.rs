@@ -15,6 +15,7 @@ use thiserror::Error;
 use crate::inertia::Inertia;
 use crate::inertial_system::InertialSystem;
 use crate::jacobian::Jacobian;
+use crate::layout::Run;
 use crate::mechanics::Mechanics;
 
 /// Scaled constraint residual at which positions count as consistent: a few roundings of a squared length.
@@ -109,7 +110,7 @@ impl<'m> Projector<'m> {
 
     /// Velocities after an impulse on the free components \[N s\]: `v` becomes the velocity on A(q) q̇ = 0 nearest to
     /// v + M⁻¹ impulse in kinetic energy, prescribed components kept. `impulse` is given the values of A(q) and fills in
-    /// one number per free component.
+    /// one number per free component. The largest |A q̇| left.
     ///
     /// # Errors
     /// The matrix is singular or not finite.
@@ -118,10 +119,10 @@ impl<'m> Projector<'m> {
         q: &[f64],
         impulse: impl FnOnce(&[f64], &mut [f64]),
         v: &mut [f64],
-    ) -> Result<Moved, ProjectionError> {
+    ) -> Result<f64, ProjectionError> {
         self.system.factor(q)?;
         impulse(self.system.jacobian(), &mut self.rhs);
-        self.correct_velocity(v)
+        self.solve_for(v, None)
     }
 
     /// The velocity of momentum `p = M q̇ + Aᵀ(..)` (free components): `v` holds a guess with its prescribed
@@ -246,8 +247,9 @@ impl<'m> Projector<'m> {
             *rhs = -rate;
         }
         let checked = self.system.solve(&mut self.rhs)?;
-        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
-            x[i] += delta;
+        for &Run { coordinate, unknown, len } in self.system.layout().runs() {
+            let changes = &self.rhs[unknown..unknown + len];
+            x[coordinate..coordinate + len].iter_mut().zip(changes).for_each(|(x, change)| *x += change);
         }
         let (left, size) = self.rate_left(x, rates);
         if checked || left <= RATE_LEFT * size {
