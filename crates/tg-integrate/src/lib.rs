@@ -30,19 +30,31 @@
 //! A [`State`] is plain data and a checkpoint: serialised and read back exactly, a run continues bit for bit.
 
 mod check;
+mod composition;
+mod curvature;
+mod dormand_prince;
 mod error;
+mod error_control;
 mod generalized_alpha;
+mod hermite;
+mod index_one;
 mod recorder;
 mod run;
+mod runge_kutta;
 mod state;
 mod stepper;
+mod substep;
+mod switching;
 mod symplectic;
 mod system;
 
+pub use composition::{Composition, CompositionScheme};
 pub use error::{StartError, StepError, StepFailure};
+pub use error_control::Tolerances;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use recorder::Recorder;
 pub use run::{Ended, Observer, Run, RunError, Summary};
+pub use runge_kutta::{EmbeddedPair, RungeKutta};
 pub use state::State;
 pub use stepper::{NewtonOptions, StepReport, Stepper};
 pub use symplectic::Symplectic;
