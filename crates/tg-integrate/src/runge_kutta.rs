@@ -277,7 +277,7 @@ impl Stepper for RungeKutta<'_> {
             None => self.fixed_step(t, h, &mut report),
         };
         if let Err(failure) = done {
-            return Err(StepError { t, h, residual: report.residual, failure });
+            return Err(StepError { t, h, residual: f64::NAN, failure });
         }
         let substep = &self.substep;
         state.advance_time(h);

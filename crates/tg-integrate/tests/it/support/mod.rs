@@ -10,7 +10,10 @@ pub(crate) mod prism;
 pub(crate) mod tower;
 
 use tg_coords::{CoordType, MassProperties, Member, Pose};
-use tg_integrate::{GeneralizedAlpha, NewtonOptions, Run, State, Stepper, Summary, Symplectic};
+use tg_integrate::{
+    EmbeddedPair, GeneralizedAlpha, NewtonOptions, Run, RungeKutta, State, Stepper, Summary, Symplectic,
+    Tolerances,
+};
 use tg_model::{Joining, Mechanics, MemberId, Model, ModelBuilder, Place};
 
 pub(crate) const GRAVITY: [f64; 2] = [0.0, -9.81];
@@ -75,6 +78,11 @@ pub(crate) fn symplectic(mechanics: &dyn Mechanics) -> Symplectic<'_> {
 
 pub(crate) fn alpha(mechanics: &dyn Mechanics, rho: f64) -> GeneralizedAlpha<'_> {
     GeneralizedAlpha::new(mechanics, rho, NewtonOptions::default()).unwrap()
+}
+
+/// A pair under error control.
+pub(crate) fn explicit(mechanics: &dyn Mechanics, pair: EmbeddedPair, tolerance: f64) -> RungeKutta<'_> {
+    RungeKutta::new(mechanics, pair, Tolerances::relative(tolerance)).unwrap()
 }
 
 /// The start at rest as built.
