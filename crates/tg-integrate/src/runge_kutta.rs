@@ -27,6 +27,11 @@ use crate::switching::Switch;
 
 /// Times that a substep may be shortened to end at a switch; two or three suffice.
 const MOST_SHORTENED: u32 = 10;
+/// Chattering: so many substeps shorter than this part of what the error allows, without a longer one that has no switch.
+/// Switches are then passed over in substeps of `SLIDING` of what is allowed, and counted, until one has none.
+const MOST_CHATTER: u32 = 50;
+const CHATTER: f64 = 1e-2;
+const SLIDING: f64 = 1e-2;
 /// Least substep as a part of the step or of the time: some roundings of the time.
 const SMALLEST: f64 = 1e-13;
 
@@ -146,22 +151,31 @@ impl<'m> RungeKutta<'m> {
         if controller.proposal <= 0.0 {
             controller.proposal = self.substep.first_length(&tolerances).min(h);
         }
-        let (mut done, mut shortened, mut times_shortened) = (0.0, None, 0);
+        let (mut done, mut shortened, mut times_shortened, mut chatter) = (0.0, None, 0, 0);
         while done < h {
             if report.substeps + report.rejected >= tolerances.most_substeps {
                 let (at, substeps) = (t + done, tolerances.most_substeps);
                 return Err(StepFailure::TooManySubsteps { at, substeps, substep: controller.proposal });
             }
             let left = h - done;
-            let length = shortened.take().unwrap_or_else(|| portion(controller.proposal, left));
+            let allowed = controller.proposal.min(h);
+            let chattering = chatter >= MOST_CHATTER;
+            let next = if chattering { SLIDING * allowed } else { allowed };
+            let length = shortened.take().unwrap_or_else(|| portion(next, left));
+            let switches = (report.frozen, report.forced);
             // The last substep ends where the step does, to the last bit.
             let end = if length >= left { h } else { done + length };
-            let shortest = (times_shortened < MOST_SHORTENED).then_some(smallest);
+            let shortest = (times_shortened < MOST_SHORTENED && !chattering).then_some(smallest);
             let refused = match self.try_substep((t + done, t + end), length, shortest, report) {
                 Outcome::Accepted(error) => {
                     // A substep that was cut at a switch tells nothing about the length of the next one.
-                    if times_shortened == 0 {
+                    if times_shortened == 0 && !chattering {
                         controller.accept(length, error, order);
+                    }
+                    if length < CHATTER * allowed {
+                        chatter += 1;
+                    } else if switches == (report.frozen, report.forced) {
+                        chatter = 0;
                     }
                     (done, times_shortened) = (end, 0);
                     continue;

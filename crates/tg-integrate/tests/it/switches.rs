@@ -1,6 +1,7 @@
 //! Slacking cables under explicit schemes: switches are located, so that the error follows the tolerance.
 
 use crate::slacking::thrown_into_a_damper;
+use crate::support::friction::Friction;
 use crate::support::tower::{self, Tower, tower};
 use crate::support::{at_end, corners, distance, explicit, run, start};
 use tg_integrate::{EmbeddedPair, Run, RungeKutta, State, StepReport, Stepper, Summary};
@@ -96,4 +97,18 @@ fn fixed_steps_pass_over_switches() {
     let error = distance(&corners(&t.model, &t.triangles, &state.q), &exact);
     println!("{error:e}");
     assert!(error > 1e-9 && error < 1e-4, "{error:e}");
+}
+
+/// Dry friction brings a mass from 1 m/s to rest after 0.5 m; the direction of the force then changes without end. The step
+/// ends all the same, stays near the rest, and says what it passed over.
+#[test]
+fn chattering_ends_and_is_counted() {
+    for pair in PAIRS {
+        let mut stepper = explicit(&Friction, pair, 1e-6);
+        let mut state = stepper.start(0.0, &[0.0], &[1.0]).unwrap();
+        let report = stepper.step(&mut state, 3.0).unwrap();
+        println!("{state:?} {report:?}");
+        assert!(report.forced > 0 && report.substeps < 5000, "{report:?}");
+        assert!((state.q[0] - 0.5).abs() < 0.05 && state.v[0].abs() < 0.1, "{state:?}");
+    }
 }

@@ -3,8 +3,10 @@
 //! - here: starting and running, positions of points, example 1, a pendulum, particles;
 //! - [`tower`]: example 2, the planar class-3 tower, in its setups;
 //! - [`prism`]: prestressed prisms in space, one or a chain;
+//! - [`friction`]: a mass with dry friction, whose switch chatters;
 //! - [`momentum`]: linear and angular momentum from poses and twists.
 
+pub(crate) mod friction;
 pub(crate) mod momentum;
 pub(crate) mod prism;
 pub(crate) mod tower;
