@@ -2,12 +2,9 @@
 
 use crate::support::prism::{self, prisms};
 use crate::support::tower::{self, tower};
-use crate::support::{alpha, example1, explicit, start, symplectic};
+use crate::support::{alpha, composition, example1, explicit, fixed, start, symplectic};
 use allocation_counter::measure;
-use tg_integrate::{
-    Composition, CompositionScheme, EmbeddedPair, NewtonOptions, Run, RungeKutta, State, StepReport, Stepper,
-    Summary,
-};
+use tg_integrate::{CompositionScheme, EmbeddedPair, Run, State, StepReport, Stepper, Summary};
 use tg_model::Model;
 
 /// Allocations of `steps` steps after the first, with the totals of the reports.
@@ -65,10 +62,9 @@ fn explicit_and_composed_steps_allocate_nothing() {
     let mut steppers: Vec<Box<dyn Stepper + '_>> = Vec::new();
     for pair in pairs {
         steppers.push(Box::new(explicit(&model, pair, 1e-5)));
-        steppers.push(Box::new(RungeKutta::fixed(&model, pair).unwrap()));
+        steppers.push(Box::new(fixed(&model, pair)));
     }
-    let suzuki = Composition::new(&model, CompositionScheme::Suzuki4, NewtonOptions::default()).unwrap();
-    steppers.push(Box::new(suzuki));
+    steppers.push(Box::new(composition(&model, CompositionScheme::Suzuki4)));
     let mut located = 0;
     for (k, stepper) in steppers.iter_mut().enumerate() {
         let mut state = start(&model, stepper.as_mut());

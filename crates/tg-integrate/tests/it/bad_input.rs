@@ -1,21 +1,20 @@
 //! Bad input gives typed errors that name the culprit.
 
 use crate::support::tower::{self, tower};
-use crate::support::{alpha, example1, explicit, start, symplectic};
+use crate::support::{alpha, composition, example1, explicit, start, symplectic};
 use tg_coords::{CoordType, MassProperties, Member, Pose};
 use tg_integrate::{
-    Composition, CompositionScheme, EmbeddedPair, Ended, GeneralizedAlpha, NewtonOptions, Run, StartError,
-    State, StepFailure, Stepper, Symplectic,
+    CompositionScheme, EmbeddedPair, Ended, GeneralizedAlpha, NewtonOptions, Run, StartError, State,
+    StepFailure, Stepper, Symplectic,
 };
 use tg_model::{Model, ModelBuilder, Signal};
 
 fn steppers(model: &Model<2>) -> [Box<dyn Stepper + '_>; 4] {
-    let composition = Composition::new(model, CompositionScheme::Suzuki4, NewtonOptions::default());
     [
         Box::new(symplectic(model)),
         Box::new(alpha(model, 0.7)),
         Box::new(explicit(model, EmbeddedPair::DormandPrince5, 1e-6)),
-        Box::new(composition.unwrap()),
+        Box::new(composition(model, CompositionScheme::Suzuki4)),
     ]
 }
 

@@ -1,18 +1,13 @@
 //! Compositions of the symplectic scheme: order, reversal, energy, checkpoints, refusals.
 
 use crate::support::tower::{self, tower};
-use crate::support::{at_end, corners, distance, explicit, run, start, symplectic};
+use crate::support::{at_end, composition, corners, distance, explicit, run, start, symplectic};
 use tg_integrate::{
     Composition, CompositionScheme, EmbeddedPair, NewtonOptions, State, StepFailure, Stepper,
 };
-use tg_model::Mechanics;
 
 const SCHEMES: [(CompositionScheme, f64, f64); 2] =
     [(CompositionScheme::Suzuki4, 4.0, 8e-3), (CompositionScheme::KahanLi6, 6.0, 1.6e-2)];
-
-fn composition(mechanics: &dyn Mechanics, scheme: CompositionScheme) -> Composition<'_> {
-    Composition::new(mechanics, scheme, NewtonOptions::default()).unwrap()
-}
 
 /// Moving supports and damping in both directions of time included.
 #[test]

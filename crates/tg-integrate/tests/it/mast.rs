@@ -1,8 +1,8 @@
 //! The guyed prism mast against positions that another program found.
 
-use crate::support::{distance, explicit, position, run, start};
+use crate::support::{composition, distance, explicit, fixed, position, run, start};
 use tg_fixtures::mast;
-use tg_integrate::{Composition, CompositionScheme, EmbeddedPair, NewtonOptions, RungeKutta, Stepper};
+use tg_integrate::{CompositionScheme, EmbeddedPair, Stepper};
 
 /// The three nodes of the top level of the mast of two stages at 0.5, 1, 1.5 and 2 s \[m\], to ten digits: central
 /// differences at steps of 2e-5 s and finer in node coordinates, a program of its own.
@@ -65,17 +65,15 @@ fn explicit_schemes_find_the_reference() {
     let exact = errors(2, &TWO_STAGES, 0.5, |m| Box::new(explicit(m, eight, 1e-9)));
     let default = errors(2, &TWO_STAGES, 0.5, |m| Box::new(explicit(m, five, 1e-6)));
     let tall = errors(8, &[EIGHT_STAGES], 0.5, |m| Box::new(explicit(m, eight, 1e-9)));
-    let fixed = errors(8, &[EIGHT_STAGES], 4e-3, |m| Box::new(RungeKutta::fixed(m, five).unwrap()));
-    println!("{exact:?} {default:?} {tall:?} {fixed:?}");
+    let steps = errors(8, &[EIGHT_STAGES], 4e-3, |m| Box::new(fixed(m, five)));
+    println!("{exact:?} {default:?} {tall:?} {steps:?}");
     assert!(exact.iter().chain(&tall).all(|error| *error < KNOWN), "{exact:?} {tall:?}");
-    assert!(default.iter().chain(&fixed).all(|error| *error < 2e-8), "{default:?} {fixed:?}");
+    assert!(default.iter().chain(&steps).all(|error| *error < 2e-8), "{default:?} {steps:?}");
 }
 
 #[test]
 fn compositions_find_the_reference() {
-    let found = errors(2, &TWO_STAGES[..1], 4e-3, |m| {
-        Box::new(Composition::new(m, CompositionScheme::KahanLi6, NewtonOptions::default()).unwrap())
-    });
+    let found = errors(2, &TWO_STAGES[..1], 4e-3, |m| Box::new(composition(m, CompositionScheme::KahanLi6)));
     println!("{found:?}");
     assert!(found.iter().all(|error| *error < 1e-8), "{found:?}");
 }

@@ -2,7 +2,8 @@
 
 use crate::support::tower::{self, tower};
 use crate::support::{
-    at_end, constraint_rate, corners, distance, example1, explicit, order, pendulum, run, start, symplectic,
+    at_end, constraint_rate, corners, distance, example1, explicit, fixed, order, pendulum, run, start,
+    symplectic,
 };
 use tg_integrate::{
     EmbeddedPair, NewtonOptions, Run, RungeKutta, StartError, State, StepFailure, Stepper, Symplectic,
@@ -20,7 +21,7 @@ fn bits(state: &State) -> Vec<u64> {
 /// Orders from each three of `runs` successive halvings of a fixed step.
 fn orders(model: &Model<2>, pair: EmbeddedPair, h: f64, end: f64, runs: i32) -> Vec<f64> {
     let q = |k: i32| {
-        let mut stepper = RungeKutta::fixed(model, pair).unwrap();
+        let mut stepper = fixed(model, pair);
         at_end(model, &mut stepper, h / f64::from(1 << k), end).q
     };
     let runs: Vec<_> = (0..runs).map(q).collect();
@@ -111,7 +112,7 @@ fn undamped_tower_keeps_its_energy_within_the_tolerance() {
 fn states_are_consistent() {
     let model = tower(tower::UN).model;
     for pair in PAIRS {
-        let mut stepper = RungeKutta::fixed(&model, pair).unwrap();
+        let mut stepper = fixed(&model, pair);
         let mut state = start(&model, &mut stepper);
         for _ in 0..50 {
             let report = stepper.step(&mut state, 8e-3).unwrap();
@@ -205,7 +206,7 @@ fn signal_that_becomes_nan_is_named() {
     let rest = Signal::user(|t| if t > 0.5 { (f64::NAN, 0.0) } else { (0.9, 0.0) });
     b.cable("tie", bar.node(1), eye, tg_model::CableLaw::linear(50.0), rest).unwrap();
     let model = b.build().unwrap();
-    for mut stepper in [explicit(&model, PAIRS[0], 1e-6), RungeKutta::fixed(&model, PAIRS[1]).unwrap()] {
+    for mut stepper in [explicit(&model, PAIRS[0], 1e-6), fixed(&model, PAIRS[1])] {
         let mut state = start(&model, &mut stepper);
         let error = Run::new(0.01, 1.0).go(&mut stepper, &mut state).unwrap_err();
         println!("{error}");
@@ -225,7 +226,7 @@ fn fixed_steps_beat_the_symplectic_scheme_on_a_smooth_scene() {
         corners(&t.model, &t.triangles, &state.q)
     };
     let exact = end(&mut explicit(&t.model, PAIRS[1], 1e-11));
-    let five = distance(&end(&mut RungeKutta::fixed(&t.model, PAIRS[0]).unwrap()), &exact);
+    let five = distance(&end(&mut fixed(&t.model, PAIRS[0])), &exact);
     let two = distance(&end(&mut Symplectic::new(&t.model, NewtonOptions::default()).unwrap()), &exact);
     println!("{five:.1e} {two:.1e}");
     assert!(five < 1e-3 * two, "{five:e} {two:e}");

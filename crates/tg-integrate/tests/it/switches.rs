@@ -3,8 +3,8 @@
 use crate::slacking::thrown_into_a_damper;
 use crate::support::friction::Friction;
 use crate::support::tower::{self, Tower, tower};
-use crate::support::{at_end, corners, distance, explicit, run, start};
-use tg_integrate::{EmbeddedPair, Run, RungeKutta, State, StepReport, Stepper, Summary};
+use crate::support::{at_end, corners, distance, explicit, fixed, run, start};
+use tg_integrate::{EmbeddedPair, Run, State, StepReport, Stepper, Summary};
 
 const PAIRS: [EmbeddedPair; 2] = [EmbeddedPair::DormandPrince5, EmbeddedPair::DormandPrince8];
 
@@ -92,7 +92,7 @@ fn jump_of_the_force_is_found_where_it_is() {
 fn fixed_steps_pass_over_switches() {
     let t = tower(tower::US);
     let (exact, _) = end(&t, PAIRS[1], 1e-10);
-    let mut stepper = RungeKutta::fixed(&t.model, PAIRS[0]).unwrap();
+    let mut stepper = fixed(&t.model, PAIRS[0]);
     let state = at_end(&t.model, &mut stepper, 4e-3, 0.8);
     let error = distance(&corners(&t.model, &t.triangles, &state.q), &exact);
     println!("{error:e}");

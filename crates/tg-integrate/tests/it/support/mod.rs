@@ -13,8 +13,8 @@ pub(crate) mod tower;
 
 use tg_coords::{CoordType, MassProperties, Member, Pose};
 use tg_integrate::{
-    EmbeddedPair, GeneralizedAlpha, NewtonOptions, Run, RungeKutta, State, Stepper, Summary, Symplectic,
-    Tolerances,
+    Composition, CompositionScheme, EmbeddedPair, GeneralizedAlpha, NewtonOptions, Run, RungeKutta, State,
+    Stepper, Summary, Symplectic, Tolerances,
 };
 use tg_model::{Joining, Mechanics, MemberId, Model, ModelBuilder, Place};
 
@@ -85,6 +85,15 @@ pub(crate) fn alpha(mechanics: &dyn Mechanics, rho: f64) -> GeneralizedAlpha<'_>
 /// A pair under error control.
 pub(crate) fn explicit(mechanics: &dyn Mechanics, pair: EmbeddedPair, tolerance: f64) -> RungeKutta<'_> {
     RungeKutta::new(mechanics, pair, Tolerances::relative(tolerance)).unwrap()
+}
+
+/// A pair with fixed steps.
+pub(crate) fn fixed(mechanics: &dyn Mechanics, pair: EmbeddedPair) -> RungeKutta<'_> {
+    RungeKutta::fixed(mechanics, pair).unwrap()
+}
+
+pub(crate) fn composition(mechanics: &dyn Mechanics, scheme: CompositionScheme) -> Composition<'_> {
+    Composition::new(mechanics, scheme, NewtonOptions::default()).unwrap()
 }
 
 /// The start at rest as built.
