@@ -17,6 +17,7 @@
 use tg_model::{At, Inertia, Layout, Mechanics, ProjectionError};
 use tg_sparse::{SaddleSystem, SparseError};
 
+use crate::check::ASSEMBLED;
 use crate::curvature::Curvature;
 use crate::error::StepFailure;
 use crate::state::State;
@@ -186,7 +187,7 @@ impl<'m> IndexOne<'m> {
     }
 
     /// Moves the packed state, where the equations are placed and were factored nearby, onto Φ = 0 and A q̇ = 0; the scaled
-    /// residual of Φ that is left.
+    /// residual of Φ that is left. Above [`ASSEMBLED`] the velocities are not projected.
     pub(crate) fn project(&mut self, packed: &mut [f64]) -> Result<f64, SparseError> {
         let n = self.layout.unknowns();
         let mut residual = self.constraint_residual();
@@ -200,6 +201,9 @@ impl<'m> IndexOne<'m> {
             if residual > 0.5 * before {
                 break;
             }
+        }
+        if residual.is_nan() || residual > ASSEMBLED {
+            return Ok(residual);
         }
         self.mechanics.jacobian(&self.q, &mut self.jacobian);
         self.phi.fill(0.0);
@@ -239,6 +243,16 @@ impl<'m> IndexOne<'m> {
             }
         }
         worst
+    }
+
+    /// Why q does not come to the constraints, from the last [`IndexOne::project`].
+    pub(crate) fn not_projected(&self, residual: f64) -> StepFailure {
+        let scaled =
+            self.phi.iter().zip(self.mechanics.constraint_scales()).map(|(phi, scale)| phi.abs() / scale);
+        let worst =
+            scaled.enumerate().fold((0, 0.0), |best, (j, r)| if r > best.1 { (j, r) } else { best }).0;
+        let worst = self.mechanics.constraint_name(worst);
+        StepFailure::NotConverged { iterations: MOST_CORRECTIONS, residual, worst, cables: Vec::new() }
     }
 
     /// Name of a free component and the cables there.

@@ -15,7 +15,7 @@
 use tg_model::{Mechanics, Projector};
 use tg_sparse::SparseError;
 
-use crate::check;
+use crate::check::{self, ASSEMBLED};
 use crate::dormand_prince::{DORMAND_PRINCE_5, DORMAND_PRINCE_8, Tableau};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::error_control::{Controller, Tolerances};
@@ -60,7 +60,8 @@ impl EmbeddedPair {
 /// is carried in the state, so that a checkpoint continues bit for bit. Of the report, `iterations` counts evaluations
 /// of the accelerations (one factorisation each), `substeps` the accepted substeps, `rejected` those that were made
 /// again, `frozen` those that end at a switch, `forced` switches that were passed over. The multipliers of a state are those
-/// at its time. The memory of a state is: substep, error, accelerations of the free components.
+/// at its time. Kinks of ramps and tables that move supports are not located: let steps end there, or the order
+/// is lost and the error is larger than the tolerance. The memory of a state is: substep, error, accelerations of the free components.
 ///
 /// ```
 /// use tg_integrate::{EmbeddedPair, Run, RungeKutta, Stepper, Tolerances};
@@ -92,6 +93,8 @@ enum Outcome {
     Reopened,
     /// The error is above one or NaN; the free component where it is largest.
     TooLong(f64, usize),
+    /// The end is too far from the constraints to be projected; their scaled residual.
+    Apart(f64),
     /// The equations cannot be solved somewhere in it.
     Failed(SparseError),
 }
@@ -131,10 +134,11 @@ impl<'m> RungeKutta<'m> {
     /// One step of the method.
     fn fixed_step(&mut self, t: f64, h: f64, report: &mut StepReport) -> Result<(), StepFailure> {
         let substep = &mut self.substep;
-        substep
-            .attempt(t, h, report)
-            .and_then(|_| substep.accept(t + h, report))
-            .map_err(|error| substep.equations.failure(error))
+        match substep.attempt(t, h, report).and_then(|_| substep.accept(t + h, report)) {
+            Ok(residual) if residual <= ASSEMBLED => Ok(()),
+            Ok(residual) => Err(substep.equations.not_projected(residual)),
+            Err(error) => Err(substep.equations.failure(error)),
+        }
     }
 
     /// Substeps under error control from `t` to `t + h`.
@@ -217,7 +221,7 @@ impl<'m> RungeKutta<'m> {
             if error > 1.0 || error.is_nan() {
                 return Ok(Outcome::TooLong(error, worst));
             }
-            match (substep.switch(t, h)?, shortest) {
+            let (frozen, forced) = match (substep.switch(t, h)?, shortest) {
                 (Switch::Within { at, behind }, Some(shortest)) if at * h > shortest => {
                     return Ok(Outcome::Shorten(behind * h));
                 }
@@ -225,11 +229,16 @@ impl<'m> RungeKutta<'m> {
                     substep.reopen(t, report)?;
                     return Ok(Outcome::Reopened);
                 }
-                (Switch::Within { .. }, None) => report.forced += 1,
-                (Switch::AtEnd, _) => report.frozen += 1,
-                (Switch::None, _) => {}
+                (Switch::Within { .. }, None) => (0, 1),
+                (Switch::AtEnd, _) => (1, 0),
+                (Switch::None, _) => (0, 0),
+            };
+            let residual = substep.accept(t_end, report)?;
+            if residual.is_nan() || residual > ASSEMBLED {
+                return Ok(Outcome::Apart(residual));
             }
-            substep.accept(t_end, report)?;
+            report.frozen += frozen;
+            report.forced += forced;
             Ok(Outcome::Accepted(error))
         };
         outcome().unwrap_or_else(Outcome::Failed)
@@ -240,6 +249,7 @@ impl<'m> RungeKutta<'m> {
         let equations = &self.substep.equations;
         match refused {
             Outcome::Failed(error) => equations.failure(error),
+            Outcome::Apart(residual) => equations.not_projected(residual),
             Outcome::TooLong(_, worst) => {
                 let (worst, cables) = equations.words(worst);
                 StepFailure::StepTooSmall { at, substep, worst, cables }

@@ -2,6 +2,7 @@
 
 use tg_sparse::SparseError;
 
+use crate::check::ASSEMBLED;
 use crate::dormand_prince::{Tableau, Terms};
 use crate::error_control::Tolerances;
 use crate::index_one::IndexOne;
@@ -94,26 +95,30 @@ impl<'m> Substep<'m> {
         self.equations.accelerate(frozen.then_some(&self.taut), acceleration)
     }
 
-    /// Projects the end and makes it the start of what follows; the active set becomes the laws'.
-    pub(crate) fn accept(&mut self, t_end: f64, report: &mut StepReport) -> Result<(), SparseError> {
+    /// Projects the end and makes it the start of what follows; the active set becomes the laws'. The scaled residual of the
+    /// constraints; above [`ASSEMBLED`] the projection failed, and nothing was accepted.
+    pub(crate) fn accept(&mut self, t_end: f64, report: &mut StepReport) -> Result<f64, SparseError> {
         let (n, size) = (self.jump.len(), self.start.len());
         let last = self.rates.len() - size;
         self.equations.place(t_end, &self.end);
         if self.tolerances.is_some() {
             self.equations.active_set(&mut self.taut_then);
             if self.taut != self.taut_then {
-                self.taut.copy_from_slice(&self.taut_then);
-                self.equations.accelerate(Some(&self.taut), &mut self.rates[last + n..])?;
+                self.equations.accelerate(Some(&self.taut_then), &mut self.rates[last + n..])?;
                 self.lambda.copy_from_slice(self.equations.multipliers());
             }
         }
         let residual = self.equations.project(&mut self.end)?;
+        if residual.is_nan() || residual > ASSEMBLED {
+            return Ok(residual);
+        }
         report.residual = report.residual.max(residual);
         report.substeps += 1;
+        self.taut.copy_from_slice(&self.taut_then);
         self.start.copy_from_slice(&self.end);
         self.rates.copy_within(last.., 0);
         self.rates[..n].copy_from_slice(&self.end[n..]);
-        Ok(())
+        Ok(residual)
     }
 
     /// Scaled error of the end and the free component where it is largest.

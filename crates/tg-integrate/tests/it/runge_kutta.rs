@@ -231,3 +231,21 @@ fn fixed_steps_beat_the_symplectic_scheme_on_a_smooth_scene() {
     println!("{five:.1e} {two:.1e}");
     assert!(five < 1e-3 * two, "{five:e} {two:e}");
 }
+
+/// A fixed step so long that bars tear is an error, not a state off the constraints.
+#[test]
+fn fixed_step_far_too_long_is_refused() {
+    let model = tower(tower::UN).model;
+    for pair in PAIRS {
+        let mut stepper = fixed(&model, pair);
+        let mut state = start(&model, &mut stepper);
+        let failed = (0..50).find_map(|_| stepper.step(&mut state, 0.2).err());
+        let error = failed.unwrap();
+        println!("{error}");
+        assert!(matches!(
+            error.failure,
+            StepFailure::NotConverged { .. } | StepFailure::NotFinite { .. } | StepFailure::Solver { .. }
+        ));
+        assert!(state.q.iter().all(|q| q.is_finite()));
+    }
+}
