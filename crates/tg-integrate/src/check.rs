@@ -7,7 +7,7 @@ use crate::state::State;
 
 /// Scaled violation of a constraint above which a start counts as not assembled: a thousand times the rounding of
 /// hand-written coordinates, a millionth of what a misplaced member shows.
-const ASSEMBLED: f64 = 1e-9;
+pub(crate) const ASSEMBLED: f64 = 1e-9;
 
 /// A state with prescribed components in place, finite and of the right size.
 pub(crate) fn start(mechanics: &dyn Mechanics, t: f64, q: &[f64], v: &[f64]) -> Result<State, StartError> {

@@ -120,6 +120,33 @@ pub enum StepFailure {
     /// The velocities cannot be projected.
     #[error(transparent)]
     Projection(ProjectionError),
+    /// The error control asks for a substep that time cannot resolve.
+    #[error(
+        "at t = {at} s the tolerance asks for substeps of {substep:.1e} s, because of the {worst}{}; loosen the tolerance, make signals smooth there, or take the symplectic scheme",
+        at_cables(cables)
+    )]
+    StepTooSmall {
+        /// Time of the substep \[s\].
+        at: f64,
+        /// The substep \[s\].
+        substep: f64,
+        /// The coordinate with the largest error.
+        worst: String,
+        /// Cables at that coordinate.
+        cables: Vec<String>,
+    },
+    /// An explicit scheme does not come forward.
+    #[error(
+        "after {substeps} substeps the step has come to t = {at} s, the next would be of {substep:.1e} s: the structure is too stiff for an explicit scheme; take the symplectic scheme, loosen the tolerance, or allow more substeps"
+    )]
+    TooManySubsteps {
+        /// Time reached \[s\].
+        at: f64,
+        /// Substeps made.
+        substeps: u32,
+        /// The next substep \[s\].
+        substep: f64,
+    },
 }
 
 fn at_cables(cables: &[String]) -> String {

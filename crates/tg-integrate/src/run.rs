@@ -74,7 +74,7 @@ pub struct Summary {
     pub ended: Ended,
     /// Accepted steps.
     pub steps: u64,
-    /// Newton iterations.
+    /// Newton iterations; evaluations of the accelerations in explicit schemes.
     pub iterations: u64,
     /// Steps that had to be divided.
     pub divided: u64,
@@ -84,6 +84,8 @@ pub struct Summary {
     pub forced: u64,
     /// Systems solved by the pivoting factorisation.
     pub fallbacks: u64,
+    /// Substeps that explicit schemes made again.
+    pub rejected: u64,
     /// Largest scaled residual left by a step.
     pub residual: f64,
 }
@@ -187,6 +189,7 @@ impl AddAssign<StepReport> for Summary {
         self.frozen += u64::from(report.frozen);
         self.forced += u64::from(report.forced);
         self.fallbacks += u64::from(report.fallbacks);
+        self.rejected += u64::from(report.rejected);
         self.residual = self.residual.max(report.residual);
     }
 }

@@ -75,7 +75,7 @@ impl NewtonOptions {
 /// What a step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Newton iterations, over all substeps and failed attempts.
+    /// Newton iterations, over all substeps and failed attempts; evaluations of the accelerations in explicit schemes.
     pub iterations: u32,
     /// Largest scaled residual left.
     pub residual: f64,
@@ -88,4 +88,6 @@ pub struct StepReport {
     pub forced: u32,
     /// Systems that the pivoting factorisation had to solve.
     pub fallbacks: u32,
+    /// Substeps that the explicit schemes made again: for their error, or to end at a switch of a cable.
+    pub rejected: u32,
 }

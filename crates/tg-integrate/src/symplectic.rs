@@ -57,6 +57,8 @@ pub struct Symplectic<'m> {
     trial: State,
     /// Whether p_k is the projected momentum Ḿ q̇_k, or carried in the state's memory as printed.
     project: bool,
+    /// Whether steps may go back in time, as within a composition.
+    either_way: bool,
 }
 
 /// Vectors of one step.
@@ -139,6 +141,7 @@ impl<'m> Symplectic<'m> {
                 ..State::default()
             },
             project: true,
+            either_way: false,
             system,
             projector,
         })
@@ -151,6 +154,12 @@ impl<'m> Symplectic<'m> {
         self.project = false;
         self.kept = Kept::new(self.trial.q.len(), self.work.p.len());
         self.trial.memory = vec![0.0; self.kept.end()];
+        self
+    }
+
+    /// A stepper that also takes negative steps.
+    pub(crate) fn either_way(mut self) -> Self {
+        self.either_way = true;
         self
     }
 
@@ -447,7 +456,8 @@ impl Stepper for Symplectic<'_> {
 
     fn step(&mut self, state: &mut State, h: f64) -> Result<StepReport, StepError> {
         let t = state.t;
-        check::step(state, h, self.system.mechanics.sizes(), self.trial.memory.len())?;
+        let length = if self.either_way { h.abs() } else { h };
+        check::step(state, length, self.system.mechanics.sizes(), self.trial.memory.len())?;
         let fallbacks = self.fallbacks();
         let mut report = StepReport::default();
         let mut failed = None;

@@ -69,6 +69,15 @@ impl Drive {
         }
     }
 
+    pub(crate) fn prescribed_acceleration(&self, t: f64, a: &mut [f64]) {
+        for &(i, _) in &self.held {
+            a[i] = 0.0;
+        }
+        for (i, _, signal) in &self.moved {
+            a[*i] = signal.acceleration(t);
+        }
+    }
+
     pub(crate) fn inputs(&self, t: f64, u: &mut [f64]) {
         u.copy_from_slice(&self.inputs);
         for (i, factor, signal) in &self.driven {

@@ -60,6 +60,10 @@ impl<const D: usize> Mechanics for Model<D> {
         self.drive.prescribe(t, q, v);
     }
 
+    fn prescribed_acceleration(&self, t: f64, a: &mut [f64]) {
+        self.drive.prescribed_acceleration(t, a);
+    }
+
     fn inputs(&self, t: f64, u: &mut [f64]) {
         self.drive.inputs(t, u);
     }

@@ -95,6 +95,8 @@ pub trait Mechanics: Send + Sync {
 
     /// Overwrites the prescribed components of q and q̇ by their values at time `t`.
     fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]);
+    /// Overwrites the prescribed components of q̈ by their values at time `t`.
+    fn prescribed_acceleration(&self, t: f64, a: &mut [f64]);
     /// Inputs at time `t`.
     fn inputs(&self, t: f64, u: &mut [f64]);
     /// Generalised force F over the full coordinates \[N\].

@@ -1,11 +1,15 @@
 //! Signals: scalar functions of time that move supports, reel rest lengths and scale loads.
 //!
-//! A signal gives its value `s(t)` and its rate `ṡ(t)`; at a kink the rate is that of the right side.
+//! A signal gives its value `s(t)`, its rate `ṡ(t)` and its acceleration `s̈(t)`; at a kink they are those of the right
+//! side.
 
 use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
+
+/// Time over which the rate of a user's function is differenced \[s\]; a power of two, so that times stay exact.
+const DIFFERENCE: f64 = 1.0 / 8192.0;
 
 /// A user's function of time, `t \[s\] ↦ (value, rate)`.
 pub type SignalFn = dyn Fn(f64) -> (f64, f64) + Send + Sync;
@@ -133,6 +137,27 @@ impl Signal {
                 (value + v, rate + r)
             }),
             Self::User(function) => function(t),
+        }
+    }
+
+    /// Second derivative s̈(t), at a kink that of the right side.
+    ///
+    /// A kink's own impulse is left out: the acceleration of ramps and tables is zero, so a time stepping scheme of
+    /// high order keeps its order only if its steps end at their kinks. A user's function gives no acceleration; its
+    /// rate is differenced over 2⁻¹³ s to fourth order, which leaves some ten digits of a signal that
+    /// changes within a tenth of a second.
+    pub fn acceleration(&self, t: f64) -> f64 {
+        match self {
+            Self::Constant(_) | Self::Ramp { .. } | Self::Table(_) => 0.0,
+            Self::Sine { amplitude, frequency, phase } => {
+                let omega = std::f64::consts::TAU * frequency;
+                -amplitude * omega * omega * (omega * t + phase).sin()
+            }
+            Self::Sum(signals) => signals.iter().map(|signal| signal.acceleration(t)).sum(),
+            Self::User(function) => {
+                let change = |d: f64| function(t + d).1 - function(t - d).1;
+                (8.0 * change(DIFFERENCE) - change(2.0 * DIFFERENCE)) / (12.0 * DIFFERENCE)
+            }
         }
     }
 

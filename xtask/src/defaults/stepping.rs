@@ -1,10 +1,12 @@
-//! What the settings of [`NewtonOptions`] cost and give, on the planar tower.
+//! What the settings of [`NewtonOptions`] and [`Tolerances`] cost and give, on the planar tower.
 
 use comfy_table::Table;
 use tg_cases::error::CaseError;
 use tg_cases::simulate;
 use tg_cases::tower::{Choices, Setup, Tower};
-use tg_integrate::{NewtonOptions, Run, State, StepReport, Summary, Symplectic};
+use tg_integrate::{
+    EmbeddedPair, NewtonOptions, Run, RungeKutta, State, StepReport, Summary, Symplectic, Tolerances,
+};
 use tg_model::CableLaw;
 
 use super::plain;
@@ -19,6 +21,10 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
         (
             "Steps without a solution: tower, slacking, η = 1 N s/m, h = 2e-3, 2 s; largest distance of triangle 3 from the run at h/64",
             remedies()?,
+        ),
+        (
+            "Tolerance of the explicit pairs: tower UN and US, 1 s; distance of triangle 3 from the run at 1e-12",
+            explicit()?,
         ),
     ])
 }
@@ -68,6 +74,36 @@ fn remedies() -> Result<Table, CaseError> {
             most.to_string(),
             format!("{:.2e}", simulate::distance(&points, &best)),
         ]);
+    }
+    Ok(table)
+}
+
+fn explicit() -> Result<Table, CaseError> {
+    let mut table =
+        plain(["setup", "pair", "tolerance", "evaluations", "refused", "switches", "distance [m]"]);
+    for setup in [Setup::Un, Setup::Us] {
+        let tower = Tower::new(&Choices::paper(setup))?;
+        let end = |pair, tolerance| -> Result<([f64; 2], Summary), CaseError> {
+            let mut stepper = RungeKutta::new(&tower.model, pair, Tolerances::relative(tolerance))?;
+            let mut state = simulate::start(&tower.model, &mut stepper)?;
+            let summary = Run::new(0.5, 1.0).go(&mut stepper, &mut state)?;
+            Ok((tower.centre3.eval(&state.q).into(), summary))
+        };
+        let (best, _) = end(EmbeddedPair::DormandPrince8, 1e-12)?;
+        for pair in [EmbeddedPair::DormandPrince5, EmbeddedPair::DormandPrince8] {
+            for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10] {
+                let (found, summary) = end(pair, tolerance)?;
+                table.add_row([
+                    format!("{setup:?}"),
+                    format!("{pair:?}"),
+                    format!("{tolerance:.0e}"),
+                    summary.iterations.to_string(),
+                    summary.rejected.to_string(),
+                    summary.frozen.to_string(),
+                    format!("{:.1e}", simulate::distance(&[found], &[best])),
+                ]);
+            }
+        }
     }
     Ok(table)
 }

@@ -2,9 +2,9 @@
 
 use crate::support::prism::{self, prisms};
 use crate::support::tower::{self, tower};
-use crate::support::{alpha, example1, start, symplectic};
+use crate::support::{alpha, composition, example1, explicit, fixed, start, symplectic};
 use allocation_counter::measure;
-use tg_integrate::{Run, State, StepReport, Stepper, Summary};
+use tg_integrate::{CompositionScheme, EmbeddedPair, Run, State, StepReport, Stepper, Summary};
 use tg_model::Model;
 
 /// Allocations of `steps` steps after the first, with the totals of the reports.
@@ -52,6 +52,27 @@ fn steps_that_need_the_remedy_allocate_nothing() {
     let (count, total) = allocations(&mut stepper, &mut state, 2e-3, 900);
     assert!(total.divided > 0, "{total:?}");
     assert_eq!(count, 0);
+}
+
+/// Explicit steps under error control with switches to locate, fixed ones, and compositions.
+#[test]
+fn explicit_and_composed_steps_allocate_nothing() {
+    let model = tower(tower::US).model;
+    let pairs = [EmbeddedPair::DormandPrince5, EmbeddedPair::DormandPrince8];
+    let mut steppers: Vec<Box<dyn Stepper + '_>> = Vec::new();
+    for pair in pairs {
+        steppers.push(Box::new(explicit(&model, pair, 1e-5)));
+        steppers.push(Box::new(fixed(&model, pair)));
+    }
+    steppers.push(Box::new(composition(&model, CompositionScheme::Suzuki4)));
+    let mut located = 0;
+    for (k, stepper) in steppers.iter_mut().enumerate() {
+        let mut state = start(&model, stepper.as_mut());
+        let (count, total) = allocations(stepper.as_mut(), &mut state, 4e-3, 150);
+        located += total.frozen;
+        assert_eq!((count, total.fallbacks), (0, 0), "stepper {k}: {total:?}");
+    }
+    assert!(located > 0);
 }
 
 #[test]

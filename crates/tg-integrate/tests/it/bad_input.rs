@@ -1,15 +1,21 @@
 //! Bad input gives typed errors that name the culprit.
 
 use crate::support::tower::{self, tower};
-use crate::support::{alpha, example1, start, symplectic};
+use crate::support::{alpha, composition, example1, explicit, start, symplectic};
 use tg_coords::{CoordType, MassProperties, Member, Pose};
 use tg_integrate::{
-    Ended, GeneralizedAlpha, NewtonOptions, Run, StartError, State, StepFailure, Stepper, Symplectic,
+    CompositionScheme, EmbeddedPair, Ended, GeneralizedAlpha, NewtonOptions, Run, StartError, State,
+    StepFailure, Stepper, Symplectic,
 };
 use tg_model::{Model, ModelBuilder, Signal};
 
-fn steppers(model: &Model<2>) -> [Box<dyn Stepper + '_>; 2] {
-    [Box::new(symplectic(model)), Box::new(alpha(model, 0.7))]
+fn steppers(model: &Model<2>) -> [Box<dyn Stepper + '_>; 4] {
+    [
+        Box::new(symplectic(model)),
+        Box::new(alpha(model, 0.7)),
+        Box::new(explicit(model, EmbeddedPair::DormandPrince5, 1e-6)),
+        Box::new(composition(model, CompositionScheme::Suzuki4)),
+    ]
 }
 
 const BAD_STEPS: [f64; 5] = [0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];

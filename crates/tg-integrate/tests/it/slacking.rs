@@ -82,7 +82,7 @@ fn undamped_slacking_needs_no_remedy() {
 }
 
 /// A particle of 1 kg flies at 1 m/s into a damper of η = 2048 N s/m that it tautens `gap` ahead.
-fn thrown_into_a_damper(gap: f64) -> (Model<2>, MemberId, State) {
+pub(crate) fn thrown_into_a_damper(gap: f64) -> (Model<2>, MemberId, State) {
     let mut b = ModelBuilder::<2>::new();
     let wall = b.anchor("wall", [0.0, 0.0]).unwrap();
     let stone = b.particle("stone", 1.0, [1.0, 0.0]).unwrap();

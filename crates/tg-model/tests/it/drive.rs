@@ -73,7 +73,7 @@ fn supports_prescribe_their_components_and_no_others() {
 }
 
 #[test]
-fn prescribed_rates_are_derivatives_of_prescribed_positions() {
+fn prescribed_rates_and_accelerations_are_derivatives() {
     let (model, _) = driven();
     let n = model.sizes().coordinates;
     let at = |t: f64| {
@@ -82,10 +82,14 @@ fn prescribed_rates_are_derivatives_of_prescribed_positions() {
         (q, v)
     };
     let (t, h) = (0.7, 1e-4);
-    let ((after, _), (before, _), (_, rate)) = (at(t + h), at(t - h), at(t));
+    let ((after, faster), (before, slower), (_, rate)) = (at(t + h), at(t - h), at(t));
+    let mut acceleration = vec![0.0; n];
+    model.prescribed_acceleration(t, &mut acceleration);
     for i in 0..n {
         assert_relative_eq!(rate[i], (after[i] - before[i]) / (2.0 * h), epsilon = 1e-5);
+        assert_relative_eq!(acceleration[i], (faster[i] - slower[i]) / (2.0 * h), epsilon = 1e-3);
     }
+    assert!(acceleration.iter().any(|a| a.abs() > 1.0));
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn user() -> Signal {
 }
 
 #[test]
-fn rates_are_the_derivatives_away_from_kinks() {
+fn rates_and_accelerations_are_the_derivatives_away_from_kinks() {
     let ramp = Signal::Ramp { from: 2.0, to: -1.0, start: 0.25, duration: 1.5 };
     let sine = Signal::Sine { amplitude: 0.3, frequency: 1.7, phase: 0.4 };
     let sum = Signal::Sum(vec![ramp.clone(), sine.clone(), user(), Signal::Sum(vec![table()])]);
@@ -30,6 +30,9 @@ fn rates_are_the_derivatives_away_from_kinks() {
             let s = |steps: f64| signal.at(t + steps * h).0;
             let slope = (8.0 * (s(1.0) - s(-1.0)) - (s(2.0) - s(-2.0))) / (12.0 * h);
             assert_relative_eq!(signal.at(t).1, slope, epsilon = 1e-8, max_relative = 1e-8);
+            let rate = |steps: f64| signal.at(t + steps * h).1;
+            let slope = (8.0 * (rate(1.0) - rate(-1.0)) - (rate(2.0) - rate(-2.0))) / (12.0 * h);
+            assert_relative_eq!(signal.acceleration(t), slope, epsilon = 1e-7, max_relative = 1e-7);
         }
     }
 }

@@ -3,14 +3,19 @@
 //! - here: starting and running, positions of points, example 1, a pendulum, particles;
 //! - [`tower`]: example 2, the planar class-3 tower, in its setups;
 //! - [`prism`]: prestressed prisms in space, one or a chain;
+//! - [`friction`]: a mass with dry friction, whose switch chatters;
 //! - [`momentum`]: linear and angular momentum from poses and twists.
 
+pub(crate) mod friction;
 pub(crate) mod momentum;
 pub(crate) mod prism;
 pub(crate) mod tower;
 
 use tg_coords::{CoordType, MassProperties, Member, Pose};
-use tg_integrate::{GeneralizedAlpha, NewtonOptions, Run, State, Stepper, Summary, Symplectic};
+use tg_integrate::{
+    Composition, CompositionScheme, EmbeddedPair, GeneralizedAlpha, NewtonOptions, Run, RungeKutta, State,
+    Stepper, Summary, Symplectic, Tolerances,
+};
 use tg_model::{Joining, Mechanics, MemberId, Model, ModelBuilder, Place};
 
 pub(crate) const GRAVITY: [f64; 2] = [0.0, -9.81];
@@ -75,6 +80,20 @@ pub(crate) fn symplectic(mechanics: &dyn Mechanics) -> Symplectic<'_> {
 
 pub(crate) fn alpha(mechanics: &dyn Mechanics, rho: f64) -> GeneralizedAlpha<'_> {
     GeneralizedAlpha::new(mechanics, rho, NewtonOptions::default()).unwrap()
+}
+
+/// A pair under error control.
+pub(crate) fn explicit(mechanics: &dyn Mechanics, pair: EmbeddedPair, tolerance: f64) -> RungeKutta<'_> {
+    RungeKutta::new(mechanics, pair, Tolerances::relative(tolerance)).unwrap()
+}
+
+/// A pair with fixed steps.
+pub(crate) fn fixed(mechanics: &dyn Mechanics, pair: EmbeddedPair) -> RungeKutta<'_> {
+    RungeKutta::fixed(mechanics, pair).unwrap()
+}
+
+pub(crate) fn composition(mechanics: &dyn Mechanics, scheme: CompositionScheme) -> Composition<'_> {
+    Composition::new(mechanics, scheme, NewtonOptions::default()).unwrap()
 }
 
 /// The start at rest as built.
