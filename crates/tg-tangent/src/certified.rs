@@ -16,7 +16,7 @@ use crate::tangent::Tangent;
 /// Rounding of K in an eigenvalue, per largest eigenvalue.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Products with `W⁻¹K` that estimate the largest |ν|; it is a scale only.
-const POWER_STEPS: u32 = 12;
+const POWER_STEPS: u32 = 8;
 /// The first distance of the shift from zero, in units of the zero limit.
 const FIRST_SHIFT: f64 = 4.0;
 

@@ -23,7 +23,7 @@ const CLOSE: f64 = 1e-4;
 const CLUSTER: f64 = 1e-6;
 /// Vectors beyond those of the wanted pairs after which a space is looked at, and given up for the next.
 const FIRST_CHECK: usize = 10;
-const LAST_CHECK: usize = 20;
+const LAST_CHECK: usize = 10;
 /// Vectors between looks.
 const CHECK: usize = 4;
 /// A new shift's least distance from what is wanted, per distance of the old one.
