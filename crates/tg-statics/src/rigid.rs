@@ -123,7 +123,8 @@ fn null_space(x: &Mat<f64>) -> Result<Mat<f64>, TangentError> {
         return Ok(Mat::identity(x.ncols(), x.ncols()));
     }
     // Rows of zeros make V square.
-    let tall = Mat::from_fn(x.nrows().max(x.ncols()), x.ncols(), |r, c| if r < x.nrows() { x[(r, c)] } else { 0.0 });
+    let tall =
+        Mat::from_fn(x.nrows().max(x.ncols()), x.ncols(), |r, c| if r < x.nrows() { x[(r, c)] } else { 0.0 });
     let (values, right) = dense::right_svd(&tall)?;
     let rank = values.iter().filter(|&&s| s > ZERO).count();
     Ok(right.subcols(rank, x.ncols() - rank).to_owned())

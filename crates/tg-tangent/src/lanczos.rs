@@ -176,10 +176,12 @@ impl Krylov {
         (shares, (norm > LOST * before).then_some(norm))
     }
 
-    /// `S` times a random vector, which lies in the null space of A.
+    /// `S` times a random vector, which lies in the null space of A. The space is taken out of the random vector first:
+    /// behind pairs near the shift, which S blows up, nothing else would be left.
     fn random_vector(&mut self, op: &mut impl Operator) -> Result<Vec<f64>, TangentError> {
         self.wx.resize(op.size(), 0.0);
         let mut x: Vec<f64> = (0..op.size()).map(|_| self.next_random()).collect();
+        self.orthogonalise(op, &mut x);
         op.metric(&x, &mut self.wx);
         op.apply(&self.wx, &mut x)?;
         Ok(x)

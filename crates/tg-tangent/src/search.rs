@@ -144,14 +144,15 @@ impl Search<'_, '_> {
                 }
                 return Ok(harvest);
             }
-            next = krylov.dimension() + CHECK;
+            next = krylov.dimension() + CHECK.max(krylov.dimension() / 8);
         }
     }
 
     /// A shift amid estimates, and by how much it may be off.
     fn next_shift(&self, estimates: &[Pair]) -> (f64, f64) {
         let values = || estimates.iter().map(|pair| pair.0);
-        let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let (low, high) =
+            (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
         let nearest = NEAREST * (low - self.inverse.shift()).abs();
         if high - low > nearest {
             (low + MIDDLE * (high - low), 0.1 * (high - low))
