@@ -1,24 +1,58 @@
 //! The lowest eigenpairs of large structures, with a proof that none is missing.
 //!
-//! The signs of the pivots at a shift count the eigenvalues below it (Sylvester): negative, zero and positive ones before
-//! the search, and after it those that it must have found ([`crate::search`]).
+//! The Krylov space of `(K - σW)⁻¹ W` finds eigenvalues near a shift σ that lies below all of them; the signs of the
+//! pivots at a second shift, just above the last pair found, count how many there must be. Where the count is higher, the
+//! space grows from new random vectors until it agrees.
 
 use tg_model::Mechanics;
 
 use crate::configuration::Configuration;
+use crate::entries::Entries;
 use crate::error::TangentError;
-use crate::lanczos::dot;
-use crate::search::Search;
+use crate::lanczos::{Krylov, Operator, RitzPair, dot};
 use crate::shift_invert::ShiftInvert;
 use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
 use crate::tangent::Tangent;
 
+/// W-norm of a Ritz pair's residual, per θ, at which it has converged: eigenvalues are then good to the square of it.
+const CONVERGED: f64 = 1e-9;
+/// The same where rounding in the solves, ε times K's largest eigenvalue by the pair's distance from the shift, ends the
+/// descent earlier: the eigenvalue still has all digits that K determines.
+const STALLED: f64 = 1e-4;
 /// Rounding of K in an eigenvalue, per largest eigenvalue.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Products with `W⁻¹K` that estimate the largest |ν|; it is a scale only.
-const POWER_STEPS: u32 = 8;
+const POWER_STEPS: u32 = 12;
+/// Eigenvalues closer than this part of each other's size are one multiple eigenvalue.
+const CLUSTER: f64 = 1e-6;
 /// The first distance of the shift from zero, in units of the zero limit.
 const FIRST_SHIFT: f64 = 4.0;
+
+struct Shifted<'a, 'm> {
+    inverse: &'a mut ShiftInvert<'m>,
+    metric: Option<&'a Entries>,
+    size: usize,
+}
+
+impl Operator for Shifted<'_, '_> {
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
+        self.inverse.solve(wx, y)
+    }
+
+    fn metric(&self, x: &[f64], wx: &mut [f64]) {
+        match self.metric {
+            Some(mass) => {
+                wx.fill(0.0);
+                mass.add_product(1.0, x, wx);
+            }
+            None => wx.copy_from_slice(x),
+        }
+    }
+}
 
 pub(crate) fn lowest(
     mechanics: &dyn Mechanics,
@@ -26,73 +60,136 @@ pub(crate) fn lowest(
     options: &EigenOptions,
 ) -> Result<Spectrum, TangentError> {
     let tangent = Tangent::new(mechanics, at);
-    let freedom = tangent.unknowns().saturating_sub(mechanics.sizes().constraints);
+    let n = tangent.unknowns();
+    let freedom = n.saturating_sub(mechanics.sizes().constraints);
     let wanted = options.count.min(freedom);
     let mut inverse = ShiftInvert::new(mechanics, at, options.metric)?;
     let largest = largest_eigenvalue(&tangent, &mut inverse)?;
     let zero_limit = options.zero * largest;
     let up_to_zero = inverse.count_below(zero_limit, 0.1 * zero_limit)?;
-    let below_zero =
-        if up_to_zero == 0 { 0 } else { inverse.count_below(-zero_limit, 0.1 * zero_limit)?.min(up_to_zero) };
-    let counts =
-        Counts { negative: below_zero, zero: up_to_zero - below_zero, positive: freedom - up_to_zero };
-    let mut spectrum = Spectrum { pairs: Vec::new(), counts, zero_limit, largest, method: Method::Sparse };
+    let below_zero = if up_to_zero == 0 { 0 } else { inverse.count_below(-zero_limit, 0.1 * zero_limit)? };
+    let counts = Counts {
+        negative: below_zero,
+        zero: up_to_zero - below_zero.min(up_to_zero),
+        positive: freedom - up_to_zero,
+    };
+
     if wanted == 0 {
-        return Ok(spectrum);
+        return Ok(Spectrum { pairs: Vec::new(), counts, zero_limit, largest, method: Method::Sparse });
     }
-    if up_to_zero > 0 {
-        let shift = shift_below_all(&mut inverse, &counts, zero_limit, largest)?;
-        inverse.factor_shifted(shift)?;
-    }
+    let shift = shift_below_all(&mut inverse, &counts, zero_limit, largest)?;
+    inverse.factor_shifted(shift)?;
     let metric = (options.metric == Metric::Mass).then_some(&tangent.mass);
-    let size = tangent.unknowns();
-    let mut search = Search { inverse, metric, size, freedom, zero_limit, largest };
-    for (value, vector) in search.run(wanted)? {
-        spectrum.pairs.push(eigen_pair(&tangent, value, vector, &spectrum));
+    let mut krylov = Krylov::new(freedom);
+    loop {
+        let mut op = Shifted { inverse: &mut inverse, metric, size: n };
+        let limit = (12 * wanted + 240).min(freedom);
+        krylov.restart(&mut op)?;
+        let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
+        let values: Vec<f64> = pairs.iter().map(|pair| shift + 1.0 / pair.theta).collect();
+        // Everything below the gap behind the last wanted pair.
+        let last = values.get(wanted - 1).copied().unwrap_or(shift);
+        let gap = CLUSTER * last.abs().max(zero_limit);
+        let expected = if krylov.is_full() {
+            wanted
+        } else {
+            let count = inverse.count_below(last + gap, 0.1 * gap)?;
+            inverse.factor_shifted(shift)?;
+            count
+        };
+        let found = values.iter().filter(|&&v| v <= last + gap).count();
+        if found >= expected.min(freedom) {
+            let pairs = pairs
+                .into_iter()
+                .take(wanted)
+                .map(|pair| eigen_pair(&tangent, pair, shift, zero_limit, largest));
+            return Ok(Spectrum {
+                pairs: pairs.collect(),
+                counts,
+                zero_limit,
+                largest,
+                method: Method::Sparse,
+            });
+        }
+        if krylov.dimension() >= limit {
+            return Err(TangentError::NotConverged {
+                wanted: expected,
+                found,
+                dimension: krylov.dimension(),
+            });
+        }
     }
-    Ok(spectrum)
 }
 
-/// A shift below all eigenvalues where some are not positive, about as far from zero as the first that is not zero:
-/// convergence depends on the ratio of distances from the shift, and vectors next to zero modes that are blown up by more
-/// lose their digits. Bisection for the power of four.
+/// A shift below all eigenvalues, about as far from zero as the first eigenvalue that is not: convergence depends on the
+/// ratio of distances from the shift, and vectors next to zero modes that are blown up by more lose their digits.
 fn shift_below_all(
     inverse: &mut ShiftInvert<'_>,
     counts: &Counts,
     zero_limit: f64,
     largest: f64,
 ) -> Result<f64, TangentError> {
-    let distance = |power: i32| FIRST_SHIFT * zero_limit * 4.0_f64.powi(power);
-    let (mut low, mut high) = (-1, 0);
-    while distance(high) < 2.0 * largest {
-        high += 1;
-    }
-    while high - low > 1 {
-        let middle = low + (high - low) / 2;
-        let distance = distance(middle);
-        let beyond = match counts.negative {
-            0 => inverse.count_below(distance, 0.1 * distance)? > counts.zero,
-            _ => inverse.count_below(-distance, 0.1 * distance)? == 0,
+    let mut distance = FIRST_SHIFT * zero_limit;
+    while distance < 2.0 * largest {
+        let slack = 0.1 * distance;
+        let found = match counts.negative {
+            0 => inverse.count_below(distance, slack)? > counts.zero,
+            _ => inverse.count_below(-distance, slack)? == 0,
         };
-        if beyond {
-            high = middle;
-        } else {
-            low = middle;
+        if found {
+            break;
         }
+        distance *= 4.0;
     }
-    Ok(if counts.negative == 0 { -distance(high) / 4.0 } else { -distance(high) })
+    Ok(match counts {
+        Counts { negative: 0, zero: 0, .. } => distance / 8.0,
+        Counts { negative: 0, .. } => -distance / 4.0,
+        _ => -distance,
+    })
+}
+
+/// Grows the space until the pairs of the `wanted` largest θ have converged; those and some behind them.
+fn converged(
+    krylov: &mut Krylov,
+    op: &mut Shifted<'_, '_>,
+    wanted: usize,
+    limit: usize,
+) -> Result<Vec<RitzPair>, TangentError> {
+    let (mut next_check, mut before) = (wanted + 4, Vec::new());
+    loop {
+        while krylov.dimension() < next_check && !krylov.is_full() {
+            krylov.extend(op)?;
+        }
+        let pairs = krylov.largest(op, wanted + 4)?;
+        let shares: Vec<f64> =
+            pairs.iter().take(wanted).map(|pair| pair.residual / pair.theta.abs()).collect();
+        let is_good = |(k, &share): (usize, &f64)| {
+            share <= CONVERGED || (share <= STALLED && before.get(k).is_some_and(|b| share > 0.5 * b))
+        };
+        let good = shares.iter().enumerate().filter(|&pair| is_good(pair)).count();
+        if good == wanted.min(pairs.len()) || krylov.is_full() {
+            return Ok(pairs);
+        }
+        if krylov.dimension() >= limit {
+            return Err(TangentError::NotConverged { wanted, found: good, dimension: krylov.dimension() });
+        }
+        before = shares;
+        next_check = krylov.dimension() + (krylov.dimension() / 4).max(8);
+    }
 }
 
 /// ν of a pair by its Rayleigh quotient, which rounding in θ does not reach.
-fn eigen_pair(tangent: &Tangent<'_>, value: f64, vector: Vec<f64>, spectrum: &Spectrum) -> EigenPair {
-    let mut kx = vec![0.0; vector.len()];
-    tangent.stiffness.add_product(1.0, &vector, &mut kx);
-    let value = if value.abs() > spectrum.zero_limit { dot(&vector, &kx) } else { value };
+fn eigen_pair(tangent: &Tangent<'_>, pair: RitzPair, shift: f64, zero_limit: f64, largest: f64) -> EigenPair {
+    let mut kx = vec![0.0; pair.vector.len()];
+    tangent.stiffness.add_product(1.0, &pair.vector, &mut kx);
+    let quotient = dot(&pair.vector, &kx);
+    let theta = shift + 1.0 / pair.theta;
+    let value = if theta.abs() > zero_limit { quotient } else { theta };
     EigenPair {
         value,
-        accuracy: ROUNDING * spectrum.largest,
-        sign: sign(value, spectrum.zero_limit),
-        shape: tangent.full(&vector),
+        accuracy: ROUNDING * largest,
+        sign: sign(value, zero_limit),
+        shape: tangent.full(&pair.vector),
     }
 }
 

@@ -16,11 +16,9 @@ use crate::reduced::Reduced;
 use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Sign, Spectrum, sign};
 use crate::tangent::Tangent;
 
-/// Free coordinates up to which [`Method::Automatic`] reduces to dense matrices: for ten modes of the prism mast both are
-/// equally fast between 72 and 108.
-const DENSE_LIMIT: usize = 90;
-/// The same where more than a quarter of all pairs is wanted: no space of theirs is small.
-const DENSE_LIMIT_OF_MANY: usize = 1000;
+/// Free coordinates up to which [`Method::Automatic`] reduces to dense matrices: `cargo xtask defaults` finds both equally
+/// fast near 220.
+const DENSE_LIMIT: usize = 220;
 
 /// The lowest eigenpairs at a configuration.
 ///
@@ -31,8 +29,7 @@ pub fn lowest(
     at: &Configuration,
     options: &EigenOptions,
 ) -> Result<Spectrum, TangentError> {
-    let n = mechanics.free().len();
-    let small = n <= if options.count > n / 4 { DENSE_LIMIT_OF_MANY } else { DENSE_LIMIT };
+    let small = mechanics.free().len() <= DENSE_LIMIT;
     match options.method {
         Method::Sparse => certified::lowest(mechanics, at, options),
         Method::Automatic if !small => certified::lowest(mechanics, at, options),

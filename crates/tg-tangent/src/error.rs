@@ -57,15 +57,15 @@ pub enum TangentError {
     },
     /// The sparse eigensolver stopped early.
     #[error(
-        "only {found} of {wanted} eigenpairs converged, and {spaces} Krylov spaces about different shifts brought no more; ask for fewer, or use the dense method"
+        "only {found} of {wanted} eigenpairs converged in a Krylov space of dimension {dimension}; ask for fewer, or use the dense method"
     )]
     NotConverged {
         /// Pairs that were asked for.
         wanted: usize,
         /// Pairs that converged.
         found: usize,
-        /// Krylov spaces that brought nothing.
-        spaces: u32,
+        /// Dimension of the Krylov space.
+        dimension: usize,
     },
     /// No factorisation near this shift tells the signs.
     #[error(

@@ -2,26 +2,21 @@
 //!
 //! ```text
 //! span{X, S X, S² X, ..},   S = (K - σW)⁻¹ W on the null space of A,   S x = θ x,   ν = σ + 1/θ
-//! S V = V T + V⁺ R,   T = VᵀW S V:   θ, s of T,   x = V s,   |S x - θ x| = |R s|
 //! ```
-//! V⁺ is the block that comes next. Each vector is orthogonalised against all before it, and T is `VᵀW S V` itself, not a
-//! recurrence. Blocks catch multiple eigenvalues, which symmetric structures have; what a block misses, the count of
-//! [`crate::certified`] finds missing.
+//! Each block is orthogonalised twice against all before it, and the images S V are kept, so that Ritz pairs and their
+//! residuals come from `VᵀW S V` itself and not from a recurrence. Blocks catch multiple eigenvalues, which symmetric
+//! structures have; what a block misses, the count of [`crate::certified`] finds missing.
 
 use faer::Mat;
 
 use crate::dense;
 use crate::error::TangentError;
 
-/// Vectors of a block: two cost least on the masts and spines of `cargo xtask defaults`.
-const BLOCK: usize = 2;
+/// Vectors of a block: the highest multiplicity in the icosahedral and cubic structures is five, in most others three.
+const BLOCK: usize = 4;
 /// Share of a vector's length below which orthogonalisation has left too few digits: what remains would be partly
 /// rounding, and outside of the null space of A. A new random vector takes its place.
 const LOST: f64 = 1e-4;
-/// Share of a vector's length below which one orthogonalisation is not enough: it leaves ε by this share.
-const ONCE: f64 = 0.1;
-/// Vectors that are added up in one pass through memory.
-const FUSED: usize = 4;
 
 /// The operator S and the metric W.
 pub(crate) trait Operator {
@@ -32,158 +27,101 @@ pub(crate) trait Operator {
 
 /// A growing Krylov space.
 pub(crate) struct Krylov {
-    /// W-orthonormal vectors that the space is orthogonal to.
-    locked: Vec<Vec<f64>>,
-    /// V, then V⁺; W-orthonormal.
     v: Vec<Vec<f64>>,
-    /// S V.
+    wv: Vec<Vec<f64>>,
     sv: Vec<Vec<f64>>,
-    /// T, lower triangle row by row.
+    /// `VᵀW S V`, row by row of the lower triangle and beyond.
     products: Vec<Vec<f64>>,
-    /// R, columns of V from `last` on, each over V⁺.
-    beyond: Vec<Vec<f64>>,
-    /// First column of R that is not zero.
-    last: usize,
     random: u64,
     most: usize,
-    wx: Vec<f64>,
 }
 
-/// An eigenpair of T with the W-norm of its residual.
+/// An eigenpair of S with the W-norm of its residual.
 pub(crate) struct RitzPair {
     pub(crate) theta: f64,
+    pub(crate) vector: Vec<f64>,
     pub(crate) residual: f64,
-    s: Vec<f64>,
 }
 
 impl Krylov {
-    /// An empty space orthogonal to `locked`, in a null space of dimension `freedom`; `random` tells random vectors of
-    /// several spaces apart.
-    pub(crate) fn new(freedom: usize, locked: Vec<Vec<f64>>, random: u64) -> Self {
-        Self {
-            v: Vec::new(),
-            sv: Vec::new(),
-            products: Vec::new(),
-            beyond: Vec::new(),
-            last: 0,
-            random,
-            most: freedom - locked.len(),
-            locked,
-            wx: Vec::new(),
-        }
+    /// An empty space that may grow to `most` dimensions.
+    pub(crate) fn new(most: usize) -> Self {
+        Self { v: Vec::new(), wv: Vec::new(), sv: Vec::new(), products: Vec::new(), random: 1, most }
     }
 
     pub(crate) fn dimension(&self) -> usize {
-        self.sv.len()
+        self.v.len()
     }
 
     pub(crate) fn is_full(&self) -> bool {
-        self.sv.len() >= self.most
+        self.v.len() >= self.most
     }
 
-    /// Adds random vectors to the block that comes next.
+    /// Adds a block that starts from random vectors.
     pub(crate) fn restart(&mut self, op: &mut impl Operator) -> Result<(), TangentError> {
+        let mut candidates = Vec::new();
         for _ in 0..BLOCK {
-            let x = self.random_vector(op)?;
-            self.add(op, x)?;
+            candidates.push(self.random_vector(op)?);
         }
-        Ok(())
+        self.add(op, candidates)
     }
 
-    /// Adds sums of vectors in the null space of A to the block that comes next.
-    pub(crate) fn start(
-        &mut self,
-        op: &mut impl Operator,
-        vectors: Vec<Vec<f64>>,
-    ) -> Result<(), TangentError> {
-        for first in 0..BLOCK {
-            let mut sum = vec![0.0; op.size()];
-            for x in vectors.iter().skip(first).step_by(BLOCK) {
-                sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += x);
-            }
-            self.add(op, sum)?;
-        }
-        Ok(())
-    }
-
-    /// Takes V⁺ into V and finds the next one, which is part of S V⁺.
+    /// Adds the block `S V_last`.
     pub(crate) fn extend(&mut self, op: &mut impl Operator) -> Result<(), TangentError> {
-        let (first, end) = (self.sv.len(), self.v.len());
-        (self.last, self.beyond) = (first, Vec::new());
-        for j in first..end {
-            op.metric(&self.v[j], &mut self.wx);
-            let mut sx = vec![0.0; op.size()];
-            op.apply(&self.wx, &mut sx)?;
-            self.sv.push(sx.clone());
-            op.metric(&sx, &mut self.wx);
-            self.products.push(self.v[..=j].iter().map(|v| dot(v, &self.wx)).collect());
-            let shares = self.add(op, sx)?;
-            self.beyond.push(shares.into_iter().skip(end).collect());
-        }
-        Ok(())
+        let last = self.sv.len().saturating_sub(BLOCK);
+        let candidates = self.sv[last..].to_vec();
+        self.add(op, candidates)
     }
 
-    /// Adds what of x lies outside of the space as one more vector, a random one where nothing does; the shares of x in all
-    /// vectors then.
-    fn add(&mut self, op: &mut impl Operator, mut x: Vec<f64>) -> Result<Vec<f64>, TangentError> {
-        self.wx.resize(op.size(), 0.0);
-        let (mut shares, norm) = self.orthogonalise(op, &mut x);
-        if self.v.len() >= self.most {
-            return Ok(shares);
-        }
-        let norm = match norm {
-            Some(norm) => {
-                shares.push(norm);
-                norm
-            }
-            None => {
-                shares.push(0.0);
-                x = self.random_vector(op)?;
-                match self.orthogonalise(op, &mut x).1 {
-                    Some(norm) => norm,
-                    // Nothing is left outside of the space: it is the whole null space.
-                    None => {
-                        self.most = self.v.len();
-                        return Ok(shares);
-                    }
-                }
-            }
-        };
-        x.iter_mut().for_each(|x| *x /= norm);
-        self.v.push(x);
-        Ok(shares)
-    }
-
-    /// Takes the space out of x: its shares in V and V⁺, and the W-norm of what is left, none if that is rounding.
-    fn orthogonalise(&mut self, op: &impl Operator, x: &mut [f64]) -> (Vec<f64>, Option<f64>) {
-        let mut shares = vec![0.0; self.v.len()];
-        op.metric(x, &mut self.wx);
-        let before = dot(x, &self.wx).max(0.0).sqrt();
-        let (mut length, mut norm) = (before, before);
-        for _ in 0..3 {
-            let known: Vec<f64> = self.locked.iter().map(|v| -dot(v, &self.wx)).collect();
-            let part: Vec<f64> = self.v.iter().map(|v| -dot(v, &self.wx)).collect();
-            add_multiples(x, &self.locked, &known);
-            add_multiples(x, &self.v, &part);
-            shares.iter_mut().zip(&part).for_each(|(share, part)| *share -= part);
-            op.metric(x, &mut self.wx);
-            norm = dot(x, &self.wx).max(0.0).sqrt();
-            if norm > ONCE * length || norm <= LOST * before {
+    fn add(&mut self, op: &mut impl Operator, candidates: Vec<Vec<f64>>) -> Result<(), TangentError> {
+        let mut wx = vec![0.0; op.size()];
+        for mut x in candidates {
+            if self.is_full() {
                 break;
             }
-            length = norm;
+            let mut norm = self.orthogonalise(op, &mut x, &mut wx);
+            if norm.is_none() {
+                x = self.random_vector(op)?;
+                norm = self.orthogonalise(op, &mut x, &mut wx);
+            }
+            // Nothing is left outside of the space: it is the whole null space.
+            let Some(norm) = norm else {
+                self.most = self.v.len();
+                break;
+            };
+            x.iter_mut().chain(&mut wx).for_each(|x| *x /= norm);
+            let mut sx = vec![0.0; op.size()];
+            op.apply(&wx, &mut sx)?;
+            self.v.push(x);
+            self.wv.push(wx.clone());
+            self.products.push(self.wv.iter().map(|wv| dot(wv, &sx)).collect());
+            self.sv.push(sx);
         }
-        (shares, (norm > LOST * before).then_some(norm))
+        Ok(())
     }
 
-    /// `S` times a random vector, which lies in the null space of A. The space is taken out of the random vector first:
-    /// behind pairs near the shift, which S blows up, nothing else would be left.
+    /// Takes the space out of x, twice; the W-norm of what is left, or none if that is rounding. `wx` becomes W x.
+    fn orthogonalise(&self, op: &impl Operator, x: &mut [f64], wx: &mut [f64]) -> Option<f64> {
+        op.metric(x, wx);
+        let before = dot(x, wx).max(0.0).sqrt();
+        for _ in 0..2 {
+            for (v, wv) in self.v.iter().zip(&self.wv) {
+                let share = dot(wv, x);
+                x.iter_mut().zip(v).for_each(|(x, v)| *x -= share * v);
+            }
+        }
+        op.metric(x, wx);
+        let norm = dot(x, wx).max(0.0).sqrt();
+        (norm > LOST * before).then_some(norm)
+    }
+
+    /// `S` times a random vector, which lies in the null space of A.
     fn random_vector(&mut self, op: &mut impl Operator) -> Result<Vec<f64>, TangentError> {
-        self.wx.resize(op.size(), 0.0);
-        let mut x: Vec<f64> = (0..op.size()).map(|_| self.next_random()).collect();
-        self.orthogonalise(op, &mut x);
-        op.metric(&x, &mut self.wx);
-        op.apply(&self.wx, &mut x)?;
+        let mut wx = vec![0.0; op.size()];
+        let start: Vec<f64> = (0..op.size()).map(|_| self.next_random()).collect();
+        op.metric(&start, &mut wx);
+        let mut x = start;
+        op.apply(&wx, &mut x)?;
         Ok(x)
     }
 
@@ -193,51 +131,34 @@ impl Krylov {
         (self.random >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
-    /// All Ritz pairs, θ descending.
-    pub(crate) fn pairs(&self) -> Result<Vec<RitzPair>, TangentError> {
-        let k = self.products.len();
+    /// Ritz pairs with the `count` largest θ, descending. Their vectors are S V s, which lies in the null space of A as
+    /// exactly as one solve; V s gathers the rounding of all orthogonalisations.
+    pub(crate) fn largest(&self, op: &impl Operator, count: usize) -> Result<Vec<RitzPair>, TangentError> {
+        let k = self.v.len();
         let t = Mat::from_fn(k, k, |r, c| self.products[r.max(c)][r.min(c)]);
         let (values, vectors) = dense::symmetric_eigen(&t)?;
-        let next = self.beyond.iter().map(Vec::len).max().unwrap_or(0);
-        let pair = |column: usize| {
-            let mut residual = vec![0.0; next];
-            for (j, r) in self.beyond.iter().enumerate() {
-                let s = vectors[(self.last + j, column)];
-                residual.iter_mut().zip(r).for_each(|(sum, r)| *sum += s * r);
+        let mut residual = vec![0.0; op.size()];
+        let mut weighted = vec![0.0; op.size()];
+        let mut pairs = Vec::new();
+        for column in (0..k).rev().take(count) {
+            let theta = values[column];
+            let mut vector = vec![0.0; op.size()];
+            residual.fill(0.0);
+            for (row, (v, sv)) in self.v.iter().zip(&self.sv).enumerate() {
+                let s = vectors[(row, column)];
+                for ((x, r), (v, sv)) in vector.iter_mut().zip(&mut residual).zip(v.iter().zip(sv)) {
+                    *x += s * sv;
+                    *r += s * (sv - theta * v);
+                }
             }
-            RitzPair {
-                theta: values[column],
-                residual: dot(&residual, &residual).sqrt(),
-                s: vectors.col(column).iter().copied().collect(),
-            }
-        };
-        Ok((0..k).rev().map(pair).collect())
-    }
-
-    /// The vector S V s of a Ritz pair, `xᵀWx = 1`. It lies in the null space of A as exactly as one solve; V s gathers the
-    /// rounding of all orthogonalisations.
-    pub(crate) fn vector(&self, op: &impl Operator, pair: &RitzPair) -> Vec<f64> {
-        let mut x = vec![0.0; op.size()];
-        add_multiples(&mut x, &self.sv, &pair.s);
-        let mut wx = vec![0.0; op.size()];
-        op.metric(&x, &mut wx);
-        let norm = dot(&x, &wx).max(0.0).sqrt();
-        x.iter_mut().for_each(|x| *x /= norm);
-        x
-    }
-}
-
-/// `x += Σ c_i v_i`.
-fn add_multiples(x: &mut [f64], vectors: &[Vec<f64>], factors: &[f64]) {
-    let (fours, few) = (vectors.chunks_exact(FUSED), factors.chunks_exact(FUSED));
-    for (v, c) in fours.remainder().iter().zip(few.remainder()) {
-        x.iter_mut().zip(v).for_each(|(x, v)| *x += c * v);
-    }
-    for (v, c) in fours.zip(few) {
-        let [a, b, d, e] = [0, 1, 2, 3].map(|k| &v[k][..x.len()]);
-        for i in 0..x.len() {
-            x[i] += (c[0] * a[i] + c[1] * b[i]) + (c[2] * d[i] + c[3] * e[i]);
+            op.metric(&residual, &mut weighted);
+            let residual = dot(&residual, &weighted).max(0.0).sqrt();
+            op.metric(&vector, &mut weighted);
+            let norm = dot(&vector, &weighted).max(0.0).sqrt();
+            vector.iter_mut().for_each(|x| *x /= norm);
+            pairs.push(RitzPair { theta, vector, residual });
         }
+        Ok(pairs)
     }
 }
 

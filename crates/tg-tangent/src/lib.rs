@@ -52,7 +52,6 @@ mod error;
 mod lanczos;
 mod null_space;
 mod reduced;
-mod search;
 mod shift_invert;
 mod spectrum;
 mod tangent;

@@ -23,7 +23,6 @@ pub(crate) struct ShiftInvert<'m> {
     metric: Vec<f64>,
     augmentation: Vec<f64>,
     rhs: Vec<f64>,
-    shift: f64,
 }
 
 impl<'m> ShiftInvert<'m> {
@@ -67,13 +66,7 @@ impl<'m> ShiftInvert<'m> {
             stiffness,
             metric,
             augmentation: augmented,
-            shift: 0.0,
         })
-    }
-
-    /// σ of the last [`ShiftInvert::factor_shifted`].
-    pub(crate) fn shift(&self) -> f64 {
-        self.shift
     }
 
     /// Factors with K replaced by nothing: `[W, -Aᵀ; A, 0]`.
@@ -90,7 +83,6 @@ impl<'m> ShiftInvert<'m> {
         self.system.add_leading(HESSIAN, 1.0, &self.hessian);
         self.system.add_leading(METRIC, -shift, &self.metric);
         self.system.add_leading(AUGMENTATION, 1.0, &self.augmentation);
-        self.shift = shift;
         self.factor()?;
         Ok(self.system.inertia())
     }

@@ -63,6 +63,21 @@ fn pairs_satisfy_their_equations() {
     }
 }
 
+/// Six zeros, and pairs of equal eigenvalues by the symmetry of sixty bars.
+#[test]
+fn dense_and_sparse_agree_on_a_large_free_body() {
+    for law in [CableLaw::slacking, CableLaw::linear] {
+        let model = prism(60, 10.0, 0.0, law).unwrap().model;
+        let (dense, sparse) =
+            (spectrum(&model, Metric::Mass, Method::Dense), spectrum(&model, Metric::Mass, Method::Sparse));
+        assert_eq!(sparse.method, Method::Sparse);
+        assert_eq!(dense.counts, sparse.counts);
+        for (a, b) in dense.pairs.iter().zip(&sparse.pairs) {
+            assert!((a.value - b.value).abs() <= 1e-9 * b.value.abs() + a.accuracy + b.accuracy);
+        }
+    }
+}
+
 #[test]
 fn dense_and_sparse_agree_on_a_mast() {
     for stages in [8, 32] {
