@@ -13,7 +13,8 @@ use crate::request::{Goal, Request};
 use crate::solution::SolutionSet;
 use crate::sparse_equilibrium::{Column, SMALLEST, SparseEquilibrium};
 
-/// Acting cables above which the sparse path is taken: on the prism mast of `tests/it/large.rs` both take 5 ms at 96 cables.
+/// Acting cables above which the sparse path is taken: where the cubic cost of singular values begins to show. Estimated, not
+/// yet fitted to measured runs.
 pub(crate) const SPARSE_ABOVE: usize = 150;
 /// Cables tied to each other up to which it is: B Bᵀ has a dense block for each group.
 pub(crate) const LARGEST_GROUP: usize = 8;
