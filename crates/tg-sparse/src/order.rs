@@ -21,6 +21,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// From (row, column) pairs that are sorted and distinct.
+    #[cfg(test)]
     pub(crate) fn from_sorted(rows: usize, pairs: &[(u32, u32)]) -> Self {
         let mut start = vec![0; rows + 1];
         for &(row, _) in pairs {
@@ -30,6 +31,42 @@ impl Rows {
             start[row + 1] += start[row];
         }
         Self { start, column: pairs.iter().map(|&(_, column)| column).collect() }
+    }
+
+    /// From (row, column) pairs in any order, which may repeat: counting sort by column, then by row.
+    pub(crate) fn from_pairs(rows: usize, columns: usize, pairs: &[(u32, u32)]) -> Self {
+        let mut start = vec![0; columns + 1];
+        pairs.iter().for_each(|&(_, column)| start[column as usize + 1] += 1);
+        (0..columns).for_each(|column| start[column + 1] += start[column]);
+        let mut by_column = vec![0; pairs.len()];
+        for &(row, column) in pairs {
+            by_column[start[column as usize]] = row;
+            start[column as usize] += 1;
+        }
+        // `start` now holds where each column ends.
+        let visit = |each: &mut dyn FnMut(usize, u32)| {
+            let mut seen_in = vec![u32::MAX; rows];
+            let mut from = 0;
+            for (column, &end) in start[..columns].iter().enumerate() {
+                for &row in &by_column[from..end] {
+                    let seen_in = &mut seen_in[row as usize];
+                    if *seen_in != column as u32 {
+                        *seen_in = column as u32;
+                        each(row as usize, column as u32);
+                    }
+                }
+                from = end;
+            }
+        };
+        let mut row_start = vec![0; rows + 1];
+        visit(&mut |row, _| row_start[row + 1] += 1);
+        (0..rows).for_each(|row| row_start[row + 1] += row_start[row]);
+        let (mut next, mut sorted) = (row_start.clone(), vec![0; row_start[rows]]);
+        visit(&mut |row, column| {
+            sorted[next[row]] = column;
+            next[row] += 1;
+        });
+        Self { start: row_start, column: sorted }
     }
 
     pub(crate) fn row(&self, row: usize) -> &[u32] {
@@ -96,10 +133,9 @@ fn order_unknowns(leading: &Rows, jacobian: &Rows) -> Result<Vec<u32>, SparseErr
     }
     // The diagonal does not matter to the order, but amd's own debug assertion counts on it.
     pairs.extend((0..n as u32).map(|i| (i, i)));
-    pairs.sort_unstable();
-    pairs.dedup();
     // The upper triangle is enough: the ordering works on the sum of its argument and the transpose.
-    let graph = Rows::from_sorted(n, &pairs);
+    let graph = Rows::from_pairs(n, n, &pairs);
+    drop(pairs);
     let start: Vec<i64> = graph.start().iter().map(|&s| s as i64).collect();
     let index: Vec<i64> = graph.column().iter().map(|&c| i64::from(c)).collect();
     let (order, _, _) = amd::order(n as i64, &start, &index, &amd::Control::default())
@@ -121,6 +157,13 @@ mod tests {
         assert_eq!(at(4), at(2).max(at(3)).map(|last| last + 1));
         assert_eq!(at(5), at(1).map(|last| last + 1));
         Ok(())
+    }
+
+    #[test]
+    fn pairs_come_out_sorted_and_distinct() {
+        let rows = Rows::from_pairs(3, 4, &[(2, 3), (0, 1), (2, 0), (0, 1), (2, 3), (0, 0)]);
+        assert_eq!((rows.row(0), rows.row(1), rows.row(2)), (&[0, 1][..], &[][..], &[0, 3][..]));
+        assert_eq!(Rows::from_pairs(0, 0, &[]).len(), 0);
     }
 
     #[test]

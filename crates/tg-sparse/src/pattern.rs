@@ -49,9 +49,10 @@ impl SaddlePattern {
                 pairs.extend([(row, column), (column, row)]);
             }
         }
-        let leading_rows = distinct_rows(n, pairs);
+        let leading_rows = Rows::from_pairs(n, n, &pairs);
+        drop(pairs);
         let pairs: Result<Vec<_>, _> = checked(jacobian, EntryList::Jacobian, m, n).collect();
-        let jacobian_rows = distinct_rows(m, pairs?);
+        let jacobian_rows = Rows::from_pairs(m, n, &pairs?);
         if let Some(multiplier) = (0..m).find(|&j| jacobian_rows.row(j).is_empty()) {
             return Err(SparseError::FreeMultiplier { multiplier });
         }
@@ -131,12 +132,6 @@ fn checked<'a>(
     })
 }
 
-fn distinct_rows(rows: usize, mut pairs: Vec<(u32, u32)>) -> Rows {
-    pairs.sort_unstable();
-    pairs.dedup();
-    Rows::from_sorted(rows, &pairs)
-}
-
 fn inverse(order: &[u32]) -> Vec<u32> {
     let mut position = vec![0; order.len()];
     for (at, &variable) in order.iter().enumerate() {
@@ -159,7 +154,7 @@ fn saddle_rows(leading: &Rows, jacobian: &Rows, position: &[u32]) -> Rows {
             pairs.extend([(row, column), (column, row)]);
         }
     }
-    distinct_rows(position.len(), pairs)
+    Rows::from_pairs(position.len(), position.len(), &pairs)
 }
 
 /// [`SaddlePattern::assembly`] and where the list of each front starts in it.

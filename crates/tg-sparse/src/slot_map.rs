@@ -44,16 +44,12 @@ impl SlotMap {
         let leading: Vec<Vec<u32>> = leading.iter().map(|group| map(group, &slot)).collect();
         let upper = map(jacobian, &|j, i| slot(i, n + j));
         let lower = map(jacobian, &|j, i| slot(n + j, i));
-        let distinct = |slots: &mut Vec<u32>| {
-            slots.retain(|&s| s != none);
-            slots.sort_unstable();
-            let all = slots.len();
-            slots.dedup();
-            slots.len() == all
-        };
-        let mut leading_slots = leading.concat();
-        distinct(&mut leading_slots);
-        let jacobian_repeats = !distinct(&mut upper.clone());
+        let mut is_marked = vec![false; rows.column().len() + 1];
+        leading.iter().flatten().for_each(|&slot| is_marked[slot as usize] = true);
+        let leading_slots = (0..none).filter(|&slot| is_marked[slot as usize]).collect();
+        is_marked.fill(false);
+        let jacobian_repeats =
+            upper.iter().any(|&slot| slot != none && std::mem::replace(&mut is_marked[slot as usize], true));
         Self { leading, upper, lower, leading_slots, jacobian_repeats, rows }
     }
 

@@ -8,6 +8,36 @@ use tg_model::{At, Layout, Tensioned};
 use tg_tangent::faer::Mat;
 use tg_tangent::{Configuration, Entries, NullSpace, Tangent, TangentError};
 
+/// The cables at a configuration and the load that they have to balance.
+#[derive(Clone, Debug)]
+pub(crate) struct Cables {
+    /// Lengths of all cables.
+    pub(crate) lengths: Vec<f64>,
+    /// ∂l/∂q, cables by free coordinates.
+    pub(crate) gradient: Entries,
+    /// Whether each cable acts on a free coordinate.
+    pub(crate) acts: Vec<bool>,
+    /// F₀ over the free coordinates.
+    pub(crate) load: Vec<f64>,
+}
+
+impl Cables {
+    pub(crate) fn new(structure: &dyn Tensioned, at: &Configuration) -> Self {
+        let mechanics = structure.mechanics();
+        let (lengths, gradient) = lengths(structure, &at.q);
+        let mut acts = vec![false; lengths.len()];
+        gradient.iter().for_each(|(cable, _, _)| acts[cable] = true);
+        let rest = vec![0.0; at.q.len()];
+        let mut force = rest.clone();
+        mechanics.force(At { q: &at.q, v: &rest, u: &at.u, taut: None }, &mut force);
+        let mut load: Vec<f64> = mechanics.free().iter().map(|&i| force[i]).collect();
+        let tension = |c: usize| structure.static_tension(c, lengths[c], at.u[c]);
+        let tensions: Vec<f64> = (0..lengths.len()).map(tension).collect();
+        gradient.add_transposed_product(1.0, &tensions, &mut load);
+        Self { lengths, gradient, acts, load }
+    }
+}
+
 /// Equilibrium of the cables at a configuration, constraint forces eliminated.
 #[derive(Clone, Debug)]
 pub(crate) struct CableEquilibrium {
@@ -17,8 +47,6 @@ pub(crate) struct CableEquilibrium {
     pub(crate) acting: Vec<usize>,
     /// Lengths of all cables.
     pub(crate) lengths: Vec<f64>,
-    /// ∂l/∂q, cables by free coordinates.
-    pub(crate) gradient: Entries,
     /// B, degrees of freedom by acting cables.
     pub(crate) matrix: Mat<f64>,
 }
@@ -27,25 +55,15 @@ impl CableEquilibrium {
     pub(crate) fn new(structure: &dyn Tensioned, at: &Configuration) -> Result<Self, TangentError> {
         let mechanics = structure.mechanics();
         let null_space = NullSpace::new(&Tangent::new(mechanics, at))?;
-        let (lengths, gradient) = lengths(structure, &at.q);
-        let mut acts = vec![false; lengths.len()];
-        gradient.iter().for_each(|(cable, _, _)| acts[cable] = true);
+        let Cables { lengths, gradient, acts, .. } = Cables::new(structure, at);
         let acting: Vec<usize> = (0..lengths.len()).filter(|&c| acts[c]).collect();
         let all = gradient.times(&null_space.basis);
         let matrix = Mat::from_fn(null_space.basis.ncols(), acting.len(), |k, c| all[(acting[c], k)]);
-        Ok(Self { null_space, acting, lengths, gradient, matrix })
+        Ok(Self { null_space, acting, lengths, matrix })
     }
 
-    /// Nᵀ F₀ at the inputs of a configuration.
-    pub(crate) fn reduced_load(&self, structure: &dyn Tensioned, at: &Configuration) -> Mat<f64> {
-        let mechanics = structure.mechanics();
-        let rest = vec![0.0; at.q.len()];
-        let mut force = rest.clone();
-        mechanics.force(At { q: &at.q, v: &rest, u: &at.u, taut: None }, &mut force);
-        let mut load: Vec<f64> = mechanics.free().iter().map(|&i| force[i]).collect();
-        let tensions: Vec<f64> =
-            (0..self.lengths.len()).map(|c| structure.static_tension(c, self.lengths[c], at.u[c])).collect();
-        self.gradient.add_transposed_product(1.0, &tensions, &mut load);
+    /// Nᵀ F₀, F₀ over the free coordinates.
+    pub(crate) fn reduced(&self, load: &[f64]) -> Mat<f64> {
         self.null_space.basis.transpose() * Mat::from_fn(load.len(), 1, |k, _| load[k])
     }
 }

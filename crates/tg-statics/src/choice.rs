@@ -3,7 +3,6 @@
 use crate::inverse_error::InverseError;
 use crate::program::{Program, ProgramError};
 use crate::request::{Goal, Request};
-use crate::solution::SolutionSet;
 
 /// Tension beyond a bound, per largest tension, that the programmes' accuracy explains.
 const BOUND_ACCURACY: f64 = 1e-7;
@@ -14,18 +13,27 @@ pub(crate) struct Affine {
     pub(crate) offset: Vec<f64>,
 }
 
-/// Tensions as functions of the coordinates w in the null space.
-pub(crate) struct TensionRows<'a> {
-    pub(crate) set: &'a SolutionSet,
-    pub(crate) affine: &'a Affine,
+/// Coefficients of variables, and a constant.
+pub(crate) type Row = (Vec<(usize, f64)>, f64);
+
+/// Tensions as functions of variables w: coordinates in the null space, or the unknowns themselves under equations.
+pub(crate) struct TensionRows {
+    /// For each cable the coefficients of w and the constant.
+    pub(crate) rows: Vec<Row>,
+    /// Number of variables w.
+    pub(crate) free: usize,
+    /// The w nearest to the goal.
+    pub(crate) nearest: Vec<f64>,
+    /// Number of variables behind w that only the equations know.
+    pub(crate) multipliers: usize,
+    /// Equations aᵀ(w, multipliers) = b, as (a, b).
+    pub(crate) equations: Vec<Row>,
 }
 
-impl TensionRows<'_> {
-    /// Coefficients of w, and the constant.
-    fn row(&self, cable: usize) -> (Vec<(usize, f64)>, f64) {
-        let slope = self.affine.slope[cable];
-        let row = self.set.null_space.iter().map(|z| slope * z[cable]).enumerate().collect();
-        (row, slope * self.set.particular[cable] + self.affine.offset[cable])
+impl TensionRows {
+    fn row(&self, cable: usize) -> (&[(usize, f64)], f64) {
+        let (row, offset) = &self.rows[cable];
+        (row, *offset)
     }
 
     pub(crate) fn tension(&self, cable: usize, w: &[f64]) -> f64 {
@@ -33,30 +41,35 @@ impl TensionRows<'_> {
         offset + row.iter().map(|&(k, a)| a * w[k]).sum::<f64>()
     }
 
-    /// Coordinates w of the solution that a request with bounds chooses.
+    /// A programme of w, the multipliers and `more` variables, under the equations.
+    fn program(&self, more: usize) -> Program {
+        let mut program = Program::new(self.free + self.multipliers + more);
+        self.equations.iter().for_each(|(row, value)| program.equal(row, *value));
+        program
+    }
+
+    /// Variables w of the solution that a request with bounds chooses, and the multipliers.
     pub(crate) fn bounded(
         &self,
         cables: &[usize],
         request: &Request,
         name: &dyn Fn(usize) -> String,
     ) -> Result<Vec<f64>, InverseError> {
-        let free = self.set.null_space.len();
-        let mut program = Program::new(free);
+        let mut program = self.program(0);
         match request.goal {
             Goal::LeastTotalTension => {
                 let row = |&cable: &usize| self.row(cable).0;
-                cables.iter().flat_map(row).for_each(|(k, a)| program.cost(k, a));
+                cables.iter().flat_map(row).for_each(|&(k, a)| program.cost(k, a));
             }
             _ => {
-                let nearest = self.set.nearest(&request.goal);
-                nearest.iter().enumerate().for_each(|(k, &target)| program.near(k, target));
+                self.nearest.iter().enumerate().for_each(|(k, &target)| program.near(k, target));
             }
         }
         for &cable in cables {
             let ((row, offset), (low, high)) = (self.row(cable), request.bounds_of(cable));
-            program.between(&row, low - offset, high - offset);
+            program.between(row, low - offset, high - offset);
         }
-        let found = if free == 0 { Ok(Vec::new()) } else { program.solve() };
+        let found = if self.free == 0 { Ok(Vec::new()) } else { program.solve() };
         match found {
             Ok(w) if self.violations(cables, &w, request).is_empty() => Ok(w),
             Ok(_) | Err(ProgramError::Infeasible) => self.least_violation(cables, request, name),
@@ -83,11 +96,11 @@ impl TensionRows<'_> {
         request: &Request,
         name: &dyn Fn(usize) -> String,
     ) -> Result<Vec<f64>, InverseError> {
-        let free = self.set.null_space.len();
-        let mut program = Program::new(free + cables.len());
+        let free = self.free + self.multipliers;
+        let mut program = self.program(cables.len());
         for (s, &cable) in cables.iter().enumerate() {
             let ((row, offset), (low, high)) = (self.row(cable), request.bounds_of(cable));
-            let with = |violation: f64| [row.as_slice(), &[(free + s, violation)]].concat();
+            let with = |violation: f64| [row, &[(free + s, violation)]].concat();
             program.cost(free + s, 1.0);
             program.at_least(&[(free + s, 1.0)], 0.0);
             program.at_least(&with(1.0), low - offset);

@@ -62,6 +62,7 @@ mod free_body;
 mod gauge;
 mod inverse;
 mod inverse_error;
+mod inverse_sparse;
 mod newton;
 mod newton_system;
 mod path;
@@ -76,6 +77,7 @@ mod root;
 mod self_stress;
 mod size;
 mod solution;
+mod sparse_equilibrium;
 mod stability;
 
 pub use branch::{Branch, BranchEnd, BranchPoint, Event, EventKind};

@@ -23,13 +23,15 @@ pub enum ProgramError {
     },
 }
 
-/// Minimise `½ Σ w_k (x_k - target_k)² + cᵀx` subject to rows `aᵀx ≤ b`.
+/// Minimise `½ Σ w_k (x_k - target_k)² + cᵀx` subject to rows `aᵀx ≤ b` and `aᵀx = b`; sparse throughout.
 #[derive(Clone, Debug)]
 pub(crate) struct Program {
     weight: Vec<f64>,
     cost: Vec<f64>,
     entries: Vec<(usize, usize, f64)>,
     bounds: Vec<f64>,
+    equal_entries: Vec<(usize, usize, f64)>,
+    equal_values: Vec<f64>,
 }
 
 impl Program {
@@ -39,6 +41,8 @@ impl Program {
             cost: vec![0.0; variables],
             entries: Vec::new(),
             bounds: Vec::new(),
+            equal_entries: Vec::new(),
+            equal_values: Vec::new(),
         }
     }
 
@@ -73,21 +77,35 @@ impl Program {
         self.at_most(row, high);
     }
 
+    /// Adds `aᵀx = value`.
+    pub(crate) fn equal(&mut self, row: &[(usize, f64)], value: f64) {
+        let at = self.equal_values.len();
+        self.equal_entries.extend(row.iter().map(|&(k, a)| (at, k, a)));
+        self.equal_values.push(value);
+    }
+
     pub(crate) fn solve(&self) -> Result<Vec<f64>, ProgramError> {
         let n = self.weight.len();
         let diagonal: Vec<usize> = (0..n).collect();
         let quadratic = CscMatrix::new_from_triplets(n, n, diagonal.clone(), diagonal, self.weight.clone());
-        let rows = self.entries.iter().map(|e| e.0).collect();
-        let columns = self.entries.iter().map(|e| e.1).collect();
-        let values = self.entries.iter().map(|e| e.2).collect();
-        let matrix = CscMatrix::new_from_triplets(self.bounds.len(), n, rows, columns, values);
-        let cones = [SupportedConeT::NonnegativeConeT(self.bounds.len())];
+        let (equations, bounds) = (self.equal_values.len(), self.bounds.len());
+        let below = self.entries.iter().map(|&(row, k, a)| (equations + row, k, a));
+        let entries = || self.equal_entries.iter().copied().chain(below.clone());
+        let rows = entries().map(|e| e.0).collect();
+        let columns = entries().map(|e| e.1).collect();
+        let values = entries().map(|e| e.2).collect();
+        let matrix = CscMatrix::new_from_triplets(equations + bounds, n, rows, columns, values);
+        let right = [self.equal_values.as_slice(), &self.bounds].concat();
+        let mut cones = vec![SupportedConeT::NonnegativeConeT(bounds)];
+        if equations > 0 {
+            cones.insert(0, SupportedConeT::ZeroConeT(equations));
+        }
         let solver = |status: String| ProgramError::Solver { status };
         let settings = DefaultSettingsBuilder::default()
             .verbose(false)
             .build()
             .map_err(|error| solver(error.to_string()))?;
-        let mut program = DefaultSolver::new(&quadratic, &self.cost, &matrix, &self.bounds, &cones, settings)
+        let mut program = DefaultSolver::new(&quadratic, &self.cost, &matrix, &right, &cones, settings)
             .map_err(|error| solver(error.to_string()))?;
         program.solve();
         match program.solution.status {

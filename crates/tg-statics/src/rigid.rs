@@ -32,9 +32,9 @@ impl RigidMotions {
         let raw = columns(&structure.rigid_motions(q));
         // An orthonormal set of fields at q: no rotation dominates far from the origin, and a straight line of points
         // has no spin.
-        let svd = dense::svd(&raw)?;
-        let kept = svd.values.iter().filter(|&&s| s > ZERO * svd.values[0]).count();
-        let scaled = Mat::from_fn(raw.ncols(), kept, |r, c| svd.right[(r, c)] / svd.values[c]);
+        let (values, right) = dense::right_svd(&raw)?;
+        let kept = values.iter().filter(|&&s| s > ZERO * values[0]).count();
+        let scaled = Mat::from_fn(raw.ncols(), kept, |r, c| right[(r, c)] / values[c]);
         let fields = &raw * &scaled;
         let mut is_free = vec![false; q.len()];
         mechanics.free().iter().for_each(|&i| is_free[i] = true);
@@ -122,7 +122,10 @@ fn null_space(x: &Mat<f64>) -> Result<Mat<f64>, TangentError> {
     if x.nrows() == 0 || x.ncols() == 0 {
         return Ok(Mat::identity(x.ncols(), x.ncols()));
     }
-    let svd = dense::svd(x)?;
-    let rank = svd.values.iter().filter(|&&s| s > ZERO).count();
-    Ok(svd.right.subcols(rank, x.ncols() - rank).to_owned())
+    // Rows of zeros make V square.
+    let tall =
+        Mat::from_fn(x.nrows().max(x.ncols()), x.ncols(), |r, c| if r < x.nrows() { x[(r, c)] } else { 0.0 });
+    let (values, right) = dense::right_svd(&tall)?;
+    let rank = values.iter().filter(|&&s| s > ZERO).count();
+    Ok(right.subcols(rank, x.ncols() - rank).to_owned())
 }

@@ -13,7 +13,11 @@ pub struct SolutionSet {
     pub rank: Rank,
     /// Solution of minimum norm among the unknowns that are not given, all cables.
     pub particular: Vec<f64>,
-    /// Orthonormal directions in which the solution may change, all cables; empty where it is unique.
+    /// Number of directions in which the solution may change, zero where it is unique.
+    pub freedom: usize,
+    /// Those directions, orthonormal, all cables. Their matrix is dense: for large structures
+    /// [`InverseStatics::solve`](crate::InverseStatics::solve) does without and leaves it empty, as it does the singular
+    /// values of the rank, which is then counted down to 1e-6 of the largest.
     pub null_space: Vec<Vec<f64>>,
     /// Largest residual force per largest force.
     pub residual: f64,

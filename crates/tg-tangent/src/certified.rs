@@ -66,8 +66,8 @@ pub(crate) fn lowest(
     let mut inverse = ShiftInvert::new(mechanics, at, options.metric)?;
     let largest = largest_eigenvalue(&tangent, &mut inverse)?;
     let zero_limit = options.zero * largest;
-    let below_zero = inverse.count_below(-zero_limit, 0.1 * zero_limit)?;
     let up_to_zero = inverse.count_below(zero_limit, 0.1 * zero_limit)?;
+    let below_zero = if up_to_zero == 0 { 0 } else { inverse.count_below(-zero_limit, 0.1 * zero_limit)? };
     let counts = Counts {
         negative: below_zero,
         zero: up_to_zero - below_zero.min(up_to_zero),

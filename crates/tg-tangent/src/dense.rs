@@ -28,6 +28,16 @@ pub fn svd(x: &Mat<f64>) -> Result<Svd, TangentError> {
     })
 }
 
+/// Singular values, descending, and V (columns in the same order): n × k and k for k = min(rows, columns = n). For tall
+/// matrices, whose square U would not fit.
+///
+/// # Errors
+/// It does not converge.
+pub fn right_svd(x: &Mat<f64>) -> Result<RealEigen, TangentError> {
+    let svd = x.thin_svd().map_err(|_| TangentError::Dense { what: "singular value decomposition" })?;
+    Ok((svd.S().column_vector().iter().copied().collect(), svd.V().to_owned()))
+}
+
 /// Real eigenvalues, ascending, and eigenvectors (columns).
 pub type RealEigen = (Vec<f64>, Mat<f64>);
 

@@ -162,6 +162,16 @@ impl Krylov {
     }
 }
 
+/// Scalar product in eight partial sums, so that the additions do not wait for each other.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let (a8, a_end) = a.as_chunks::<8>();
+    let (b8, b_end) = b.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (a, b) in a8.iter().zip(b8) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let end: f64 = a_end.iter().zip(b_end).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + end
 }

@@ -117,7 +117,7 @@ fn inverse<const D: usize>(
             row.cable, row.length, row.rest_length, row.tension, row.strain
         );
     }
-    let free = found.set.null_space.len();
+    let free = found.set.freedom;
     *text += &format!("rank {}, {free} states of self-stress to choose from\n", found.set.rank.rank);
     if !found.pushing.is_empty() {
         let names: Vec<String> =

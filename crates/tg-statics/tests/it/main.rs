@@ -6,5 +6,6 @@ mod equilibrium;
 mod forward;
 mod free_body;
 mod inverse;
+mod large;
 mod prism;
 mod structures;
