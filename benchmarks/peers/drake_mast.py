@@ -69,7 +69,7 @@ def plant_of(mast):
     return builder.Build(), plant, place
 
 
-def run(mast, variant, dial, patience):
+def run(mast, variant, dial, samples):
     diagram, plant, place = plant_of(mast)
     simulator = Simulator(diagram)
     controlled = variant.endswith("error control")
@@ -91,7 +91,7 @@ def run(mast, variant, dial, patience):
             [plant.CalcPointsPositions(context, body.body_frame(), at, world)[:, 0] for body, at in nodes]
         )
 
-    return sampled(lambda k: simulator.AdvanceTo(k * SAMPLE), positions, mast.converged, patience)
+    return sampled(lambda k: simulator.AdvanceTo(k * SAMPLE), positions, mast.converged, samples)
 
 
 if __name__ == "__main__":

@@ -62,7 +62,7 @@ def document(mast, integrator, step):
     )
 
 
-def run(mast, variant, step, patience):
+def run(mast, variant, step, samples):
     model = mujoco.MjModel.from_xml_string(document(mast, variant, step))
     data = mujoco.MjData(model)
     sites = [model.site(f"node{node}").id for node in mast.free_nodes()]
@@ -73,7 +73,7 @@ def run(mast, variant, step, patience):
         mujoco.mj_kinematics(model, data)
         return data.site_xpos[sites].copy()
 
-    return sampled(lambda _: mujoco.mj_step(model, data, count), positions, mast.converged, patience)
+    return sampled(lambda _: mujoco.mj_step(model, data, count), positions, mast.converged, samples)
 
 
 if __name__ == "__main__":
