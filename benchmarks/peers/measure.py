@@ -20,8 +20,8 @@ def largest_distance(positions, converged):
 def sampled(advance, positions, converged, samples):
     """Runs this many samples of 10 ms: `advance(k)` goes to sample k and is timed, `positions()` gives the free nodes.
 
-    Returns the seconds that 2 s of motion take (the median sample times their number) and the error up to there; None if the run
-    fails.
+    Returns the seconds that 2 s of motion take (the median sample times their number) and the error up to there; None
+    if the run fails.
     """
     times, seen = [], [positions()]
     for k in range(1, samples + 1):

@@ -4,11 +4,12 @@
     python3 benchmarks/peers/run.py --write
 
 makes a virtual environment in target/bench with the versions of requirements.txt (a few hundred MB; --python names an
-interpreter that has them already), lets `cargo xtask` write the scene and its converged trajectory, runs all tools in turn, twice,
-and prints a table for each size; --write puts them into docs/performance.md. Takes about ten minutes.
+interpreter that has them already), lets `cargo xtask` write the scene and its converged trajectory, runs all tools in
+turn, twice, and prints a table for each size; --write puts them into docs/performance.md. Takes about ten minutes.
 """
 
 import argparse
+import datetime
 import json
 import math
 import os
@@ -75,7 +76,7 @@ def measure(python, stages, limit, passes, floor):
 
 
 def seconds_to(target, curve):
-    """Seconds in which a curve reaches an error, between its points by their slope in logarithms; None if it does not."""
+    """Seconds in which a curve reaches an error, between points by their slope in logarithms; None if it does not."""
     found = [point["seconds"] for point in curve if point["error"] <= target]
     for coarse, fine in zip(curve, curve[1:]):
         if coarse["error"] > target > fine["error"] and fine["seconds"] > coarse["seconds"]:
@@ -88,6 +89,14 @@ def digits(x):
     return "–" if x is None else f"{x:.2g}" if x >= 1e-3 else f"{x:.1e}"
 
 
+def at_one_millisecond(curve):
+    """Cost of a step [µs] and error of the run with steps of 1 ms."""
+    for point in curve:
+        if point["dial"] in ("1.000e-3 s", "0.001") and "control" not in point["variant"]:
+            return [f"{1e6 * point['seconds'] / 2000:.3g}", f"{point['error']:.1e}"]
+    return ["–", "–"]
+
+
 def table(stages, points):
     """One row per curve, one column per error, the lowest of each in bold (the floor apart)."""
     curves = {}
@@ -95,25 +104,27 @@ def table(stages, points):
         curves.setdefault((point["tool"], point["variant"]), []).append(point)
     times = {name: [seconds_to(target, curve) for target in TARGETS] for name, curve in curves.items()}
     contenders = [row for (tool, _), row in times.items() if tool != "floor"]
-    lowest = [min((row[k] for row in contenders if row[k] is not None), default=None) for k in range(len(TARGETS))]
-    lines = [
-        f"| N = {stages} | " + " | ".join(f"{target:.0e} m" for target in TARGETS) + " | µs per step of 1 ms | its error [m] |",
-        "|---|" + "---:|" * (len(TARGETS) + 2),
-    ]
-    for name, row in times.items():
-        cells = [f"**{digits(x)}**" if x is not None and x == best and name[0] != "floor" else digits(x) for x, best in zip(row, lowest)]
-        paper = next((p for p in curves[name] if p["dial"] in ("1.000e-3 s", "0.001") and "control" not in name[1]), None)
-        step = [f"{1e6 * paper['seconds'] / 2000:.3g}", f"{paper['error']:.1e}"] if paper else ["–", "–"]
-        lines.append(f"| {': '.join(name)} | " + " | ".join(cells + step) + " |")
+    columns = [[row[k] for row in contenders if row[k] is not None] for k in range(len(TARGETS))]
+    lowest = [min(column, default=None) for column in columns]
+    header = [f"N = {stages}", *(f"{target:.0e} m" for target in TARGETS), "µs per step of 1 ms", "its error [m]"]
+    lines = [f"| {' | '.join(header)} |", "|---|" + "---:|" * (len(header) - 1)]
+    for (tool, variant), row in times.items():
+        cells = [f"{tool}: {variant}"]
+        for seconds, best in zip(row, lowest):
+            is_best = tool != "floor" and seconds is not None and seconds == best
+            cells.append(f"**{digits(seconds)}**" if is_best else digits(seconds))
+        cells += at_one_millisecond(curves[tool, variant])
+        lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
 def machine():
     """One line: processor, cores, versions, date."""
-    model = next((line.split(": ")[1] for line in open("/proc/cpuinfo") if line.startswith("model name")), "unknown processor")
-    rustc, date = (subprocess.check_output(c, text=True).strip() for c in (["rustc", "--version"], ["date", "-u", "+%Y-%m-%d"]))
-    versions = (HERE / "requirements.txt").read_text().split()
-    return f"{model}, {os.cpu_count()} cores; {rustc}; {', '.join(versions)}; {date}"
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    model = next((line.split(": ")[1] for line in lines if line.startswith("model name")), "unknown processor")
+    rustc = subprocess.check_output(["rustc", "--version"], text=True).strip()
+    versions = ", ".join((HERE / "requirements.txt").read_text().split())
+    return f"{model}, {os.cpu_count()} cores; {rustc}; {versions}; {datetime.date.today()}"
 
 
 def insert(text):

@@ -1,7 +1,7 @@
 //! `bench`: what a step and the analyses cost, and how exact they are for it.
 //!
-//! Everything is processor time of one thread; a run is measured in pieces of 10 ms of motion, of which the median counts, and
-//! passes of all tools alternate, of which the fastest counts.
+//! Everything is processor time of one thread; a run is measured in pieces of 10 ms of motion, of which the median counts,
+//! and passes of all tools alternate, of which the fastest counts.
 //!
 //! - `clock`: processor time; `scene`, `scheme`: what is measured; `machine`: on what; `page`: where it is written;
 //! - `stepping`, `parts`, `memory`: cost of steps, of their parts and of analyses, peak memory;
@@ -78,6 +78,9 @@ pub(crate) struct CurveOptions {
 pub(crate) fn bench(options: &Options) -> Result<bool, TaskError> {
     let floor = compile(options.floor.as_deref());
     let mut text = format!("Measured on: {}.\n\n", machine::machine()?);
+    if options.quick {
+        text += "A short check: one pass of short runs.\n\n";
+    }
     if let Err(reason) = &floor {
         text += &format!("The floor program is left out: {reason}.\n\n");
     }

@@ -3,9 +3,9 @@
 //! Times on a shared machine scatter by tens of percent; instructions under callgrind repeat to some 1e-6, so that a
 //! loss of two percent is seen. They say nothing about memory or pipelines: `bench` does.
 //!
-//! The baseline is of the profile `quick`, which the gate has built already. Callgrind sees the machine's instruction sets (but
-//! no AVX-512) and the compiler chooses the code, so a count is compared only with one of the same compiler and instruction
-//! sets; elsewhere counts are printed and not compared.
+//! The baseline is of the profile `quick`, which the gate has built already. Callgrind sees the machine's instruction sets
+//! (but no AVX-512) and the compiler chooses the code, so a count is compared only with one of the same compiler and
+//! instruction sets; elsewhere counts are printed and not compared.
 
 use std::collections::BTreeMap;
 use std::fs;

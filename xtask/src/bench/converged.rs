@@ -38,7 +38,7 @@ pub(crate) fn converged(run: &MastRun, folder: &Path) -> Result<Trajectory, Task
     let off = off_reference(run.stages, &trajectory);
     if off.is_some_and(|off| off.is_nan() || off > AGREEMENT) {
         return Err(format!(
-            "the converged trajectory of the mast with {} stages is {off:?} m from the reference; delete {} to compute it again",
+            "the mast of {} stages: converged and reference positions are {off:?} m apart; delete {} to try again",
             run.stages,
             path.display()
         )
