@@ -47,6 +47,7 @@ fn statics(c: &mut Criterion) {
 fn inverse(c: &mut Criterion) {
     let mut group = c.benchmark_group("mast");
     group.sample_size(10).measurement_time(Duration::from_secs(1));
+    // Dense work: cubic in the size.
     for stages in [2, 8, 32] {
         let Ok(mast) = Mast::build(&MastScene::balanced(stages)) else { continue };
         let model = mast.model;
