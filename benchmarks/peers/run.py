@@ -145,7 +145,8 @@ def main():
     parser.add_argument("--write", action="store_true", help="write the tables into docs/performance.md")
     arguments = parser.parse_args()
     python = interpreter(arguments.python)
-    parts = [f"Measured on: {machine()}.\n"]
+    effort = f"runs of about {arguments.limit:g} s at most, passes: {arguments.passes}"
+    parts = [f"Measured on: {machine()}; {effort}.\n"]
     errors = {}
     for stages in arguments.stages:
         points = measure(python, stages, arguments.limit, arguments.passes, arguments.floor)

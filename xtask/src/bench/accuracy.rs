@@ -36,8 +36,14 @@ fn by_target(stages: usize, points: &[Point]) -> String {
     let mut header = vec![format!("N = {stages}")];
     header.extend(TARGETS.map(|target| format!("{target:.0e} m")));
     header.push("error at 1 ms [m]".into());
-    let mut names: Vec<(&str, &str)> = points.iter().map(|p| (p.tool.as_str(), p.variant.as_str())).collect();
-    names.dedup();
+    let mut names: Vec<(&str, &str)> = Vec::new();
+    for point in points {
+        let name = (point.tool.as_str(), point.variant.as_str());
+        // A later pass may add a point far behind the others of its curve.
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
     let rows: Vec<Vec<String>> = names
         .into_iter()
         .map(|(tool, variant)| {

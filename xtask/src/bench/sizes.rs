@@ -13,7 +13,7 @@ const FLOOR: usize = 128;
 /// Size whose peak memory is measured.
 const LARGE: usize = 4096;
 /// Seconds that an analysis may take; larger masts are left out.
-const PATIENCE: f64 = 3.0;
+const PATIENCE: f64 = 10.0;
 
 /// Stages that are measured.
 fn stages(options: &Options) -> &'static [usize] {
