@@ -35,11 +35,30 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     ),
     (
         "tg-cases",
-        &["tg-coords", "tg-model", "tg-tangent", "tg-statics", "tg-modal", "tg-equilibria", "tg-integrate"],
+        &[
+            "tg-coords",
+            "tg-model",
+            "tg-tangent",
+            "tg-statics",
+            "tg-modal",
+            "tg-equilibria",
+            "tg-integrate",
+            "tg-fixtures",
+        ],
     ),
     (
         "xtask",
-        &["tg-cases", "tg-equilibria", "tg-fixtures", "tg-integrate", "tg-model", "tg-statics", "tg-tangent"],
+        &[
+            "tg-cases",
+            "tg-equilibria",
+            "tg-fixtures",
+            "tg-integrate",
+            "tg-modal",
+            "tg-model",
+            "tg-sparse",
+            "tg-statics",
+            "tg-tangent",
+        ],
     ),
 ];
 

@@ -1,6 +1,9 @@
-//! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask defaults`.
+//! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask defaults`,
+//! `cargo xtask bench`, `cargo xtask instructions`.
 
+mod bench;
 mod defaults;
+mod instructions;
 mod layers;
 mod paths;
 mod verify;
@@ -23,7 +26,7 @@ enum Task {
     ///
     /// Exit code 0 if all hold, 1 if one does not, 2 if a case cannot be run.
     Verify {
-        /// Run only the case of this name (example1, example2, example3, antiprism, mechanism).
+        /// Run only the case of this name (example1, example2, example3, antiprism, mechanism, mast).
         #[arg(long)]
         case: Option<String>,
         /// Print one JSON document with the rows instead of tables.
@@ -40,6 +43,35 @@ enum Task {
     Layers,
     /// Measure what the solvers' default settings cost and give.
     Defaults,
+    /// Measure steps, analyses, memory, and error against time; compare with the floor program where there is one.
+    Bench(bench::Options),
+    /// Write the mast of N stages and its converged trajectory into target/bench, for the peers' scripts.
+    Mast {
+        /// Number of stages N.
+        stages: usize,
+    },
+    /// Print error against time of all schemes on one mast as JSON, for the peers' scripts.
+    Curves(bench::CurveOptions),
+    /// Count the instructions of a step under valgrind and compare them with the stored ones.
+    ///
+    /// Of the profile `quick`: `cargo build --profile quick -p xtask && target/quick/xtask instructions`. Exit code 1 if a
+    /// count has grown by more than 2 %.
+    Instructions {
+        /// Store the counts instead.
+        #[arg(long)]
+        bless: bool,
+    },
+    /// The child of `instructions` whose steps are counted.
+    #[command(hide = true)]
+    CountedSteps,
+    /// The child of `bench` whose memory is measured.
+    #[command(hide = true)]
+    PeakMemory {
+        /// Number of stages of the mast.
+        stages: usize,
+        /// Which scheme.
+        scheme: usize,
+    },
 }
 
 fn main() -> ExitCode {
@@ -48,6 +80,12 @@ fn main() -> ExitCode {
         Task::Paths { json } => paths::print(json),
         Task::Layers => layers::check(),
         Task::Defaults => defaults::measure(),
+        Task::Bench(options) => bench::bench(&options),
+        Task::Mast { stages } => bench::mast(stages),
+        Task::Curves(options) => bench::curves(&options),
+        Task::Instructions { bless } => instructions::check(bless),
+        Task::CountedSteps => instructions::in_child(),
+        Task::PeakMemory { stages, scheme } => bench::peak_memory(stages, scheme),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -61,3 +99,9 @@ fn main() -> ExitCode {
 
 /// Any failure of a task, for its message.
 type TaskError = Box<dyn std::error::Error>;
+
+/// The repository's folder.
+fn root() -> &'static std::path::Path {
+    let here = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here)
+}

@@ -37,3 +37,15 @@ fn an_unknown_case_is_bad_input() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("there are example1"));
 }
+
+/// What `instructions` counts: it must not fail for the first time under callgrind.
+#[test]
+fn every_scheme_steps_every_structure() {
+    let output = xtask(&["counted-steps"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    for scene in ["mast, N = 8", "mast, N = 32", "example 3"] {
+        let schemes = text.lines().filter(|line| line.contains(scene)).count();
+        assert!(schemes >= 3, "{scene}: {schemes} schemes");
+    }
+}

@@ -19,6 +19,7 @@
 //! | Sec. 6.3, example 3 | [`deployable`], checked by [`verify::deployable`] |
 //! | the antiprism paper, both examples | [`antiprism`], checked by [`verify::antiprism`] |
 //! | the compliant-mechanism paper | [`mechanism`], checked by [`verify::mechanism`] |
+//! | none: the prism mast of `docs/performance.md` | [`verify::mast`] |
 //! | Tables 2 and 3, planar members | [`plane`] |
 //! | Fig. 17, slack intervals | [`slack`] |
 //!

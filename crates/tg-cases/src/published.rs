@@ -1,7 +1,8 @@
-//! Reference values of the framework paper's examples, computed independently of this project.
+//! Reference values of the framework paper's examples and of the mast, computed independently of this project.
 //!
-//! `data/framework.json`: minimal coordinates, Taylor or high-order Runge–Kutta integration with located events;
-//! values named `scheme_*` are of the paper's own discrete scheme.
+//! - `data/framework.json`: minimal coordinates, Taylor or high-order Runge–Kutta integration with located events;
+//!   values named `scheme_*` are of the paper's own discrete scheme;
+//! - `data/mast.json`: central differences, converged.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -200,6 +201,49 @@ pub struct Deployment {
 pub fn framework() -> &'static Framework {
     static VALUES: LazyLock<Framework> = LazyLock::new(|| {
         serde_json::from_str(include_str!("../data/framework.json")).expect("the compiled-in data parse")
+    });
+    &VALUES
+}
+
+/// Source named in rows that compare with the mast's positions.
+pub const CONVERGED: &str = "reference positions, converged";
+
+/// Node positions of the mast at a few times.
+#[derive(Debug, Deserialize)]
+pub struct Mast {
+    /// Times \[s\].
+    pub t: Vec<f64>,
+    #[serde(rename = "2")]
+    two: Vec<Vec<[f64; 3]>>,
+    #[serde(rename = "8")]
+    eight: Vec<Vec<[f64; 3]>>,
+    #[serde(rename = "32")]
+    thirty_two: Vec<Vec<[f64; 3]>>,
+}
+
+impl Mast {
+    /// Numbers of stages that have positions.
+    pub const STAGES: [usize; 3] = [2, 8, 32];
+
+    /// Positions \[m\] at each time: level s, corner j is node 3 s + j. `None` for other numbers of stages.
+    pub fn positions(&self, stages: usize) -> Option<&[Vec<[f64; 3]>]> {
+        match stages {
+            2 => Some(&self.two),
+            8 => Some(&self.eight),
+            32 => Some(&self.thirty_two),
+            _ => None,
+        }
+    }
+}
+
+/// The mast's positions.
+///
+/// # Panics
+/// If the file that is compiled in is damaged, which a test of this crate would show.
+#[allow(clippy::expect_used)]
+pub fn mast() -> &'static Mast {
+    static VALUES: LazyLock<Mast> = LazyLock::new(|| {
+        serde_json::from_str(include_str!("../data/mast.json")).expect("the compiled-in data parse")
     });
     &VALUES
 }

@@ -4,6 +4,6 @@ mod mast;
 mod prism;
 mod spine;
 
-pub use mast::{Mast, mast};
+pub use mast::{Mast, MastCable, MastScene, mast};
 pub use prism::{Prism, prism};
 pub use spine::{Spine, spine};

@@ -82,11 +82,9 @@ impl<'m> Composition<'m> {
         let sizes = mechanics.sizes();
         let zeros = || vec![0.0; sizes.coordinates];
         let lambda = vec![0.0; sizes.constraints];
-        Ok(Self {
-            scheme,
-            base: Symplectic::new(mechanics, options)?.either_way(),
-            trial: State { q: zeros(), v: zeros(), lambda, ..State::default() },
-        })
+        let base = Symplectic::new(mechanics, options)?.either_way();
+        let memory = vec![0.0; base.memory()];
+        Ok(Self { scheme, base, trial: State { q: zeros(), v: zeros(), lambda, memory, ..State::default() } })
     }
 }
 
@@ -100,7 +98,7 @@ impl Stepper for Composition<'_> {
     }
 
     fn step(&mut self, state: &mut State, h: f64) -> Result<StepReport, StepError> {
-        check::step(state, h, self.base.mechanics().sizes(), 0)?;
+        check::step(state, h, self.base.mechanics().sizes(), self.trial.memory.len())?;
         self.trial.copy_from(state);
         let mut total = StepReport::default();
         for gamma in self.scheme.coefficients() {

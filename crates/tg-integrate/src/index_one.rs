@@ -14,8 +14,8 @@
 //! any projection the error is 30 to 1000 times larger and the time the same; accelerations found once more behind the
 //! projection change no digit and cost a sixth.
 
-use tg_model::{At, Inertia, Layout, Mechanics, ProjectionError};
-use tg_sparse::{SaddleSystem, SparseError};
+use tg_model::{At, Inertia, InertialSystem, Jacobian, Layout, Mechanics, ProjectionError, Run};
+use tg_sparse::SparseError;
 
 use crate::check::ASSEMBLED;
 use crate::curvature::Curvature;
@@ -32,10 +32,11 @@ const MOST_CORRECTIONS: u32 = 5;
 /// States are *packed*: the free components of q, then those of q̇.
 pub(crate) struct IndexOne<'m> {
     pub(crate) mechanics: &'m dyn Mechanics,
-    layout: Layout,
+    unknowns: usize,
     inertia: Inertia,
+    operator: Jacobian,
     curvature: Curvature,
-    system: SaddleSystem,
+    system: InertialSystem<'m>,
     moving: bool,
     driven: bool,
     /// (entry of the Jacobian, constraint, coordinate) of the prescribed columns.
@@ -46,6 +47,7 @@ pub(crate) struct IndexOne<'m> {
     carried: Vec<f64>,
     pub(crate) inputs: Vec<f64>,
     force: Vec<f64>,
+    /// A where the velocities are projected.
     jacobian: Vec<f64>,
     phi: Vec<f64>,
     /// Right-hand side in, solution out: free components, then multipliers.
@@ -57,16 +59,11 @@ impl<'m> IndexOne<'m> {
     /// The pattern cannot be analysed.
     pub(crate) fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
         let sizes = mechanics.sizes();
-        let layout = Layout::new(mechanics);
-        let pattern: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
-        let saddle = layout
-            .saddle(mechanics, &[&pattern])
-            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
-        // M never changes: it is put in place once.
-        let mut system = SaddleSystem::new(saddle);
-        let mass: Vec<f64> = mechanics.mass().iter().map(|e| e.value).collect();
-        system.clear_leading();
-        system.add_leading(0, 1.0, &mass);
+        let system = InertialSystem::new(mechanics).map_err(|source| ProjectionError::Solver {
+            culprit: Layout::new(mechanics).name(mechanics, &source),
+            source,
+        })?;
+        let layout = system.layout();
         let entries = mechanics.jacobian_pattern().iter().enumerate();
         let prescribed = entries
             .filter(|(_, (_, i))| layout.unknown(*i).is_none())
@@ -75,8 +72,8 @@ impl<'m> IndexOne<'m> {
         let zeros = || vec![0.0; sizes.coordinates];
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
+            operator: Jacobian::new(mechanics),
             curvature: Curvature::new(mechanics),
-            system,
             moving: mechanics.features().moving_supports,
             driven: mechanics.features().driven_inputs,
             prescribed,
@@ -87,25 +84,26 @@ impl<'m> IndexOne<'m> {
             force: zeros(),
             jacobian: vec![0.0; mechanics.jacobian_pattern().len()],
             phi: vec![0.0; sizes.constraints],
-            rhs: vec![0.0; layout.unknowns() + sizes.constraints],
-            layout,
+            rhs: vec![0.0; system.size()],
+            unknowns: system.layout().unknowns(),
+            system,
             mechanics,
         })
     }
 
     /// Number of free coordinates.
     pub(crate) fn unknowns(&self) -> usize {
-        self.layout.unknowns()
+        self.unknowns
     }
 
     /// λ of the last solution.
     pub(crate) fn multipliers(&self) -> &[f64] {
-        &self.rhs[self.layout.unknowns()..]
+        &self.rhs[self.unknowns..]
     }
 
     /// Systems that needed the pivoting factorisation so far.
     pub(crate) fn fallbacks(&self) -> u64 {
-        self.system.counts().fallbacks
+        self.system.fallbacks()
     }
 
     /// Takes over what does not change within a step, and packs the state.
@@ -113,7 +111,7 @@ impl<'m> IndexOne<'m> {
         self.q.copy_from_slice(&state.q);
         self.v.copy_from_slice(&state.v);
         self.mechanics.inputs(state.t, &mut self.inputs);
-        let (q, v) = packed.split_at_mut(self.layout.unknowns());
+        let (q, v) = packed.split_at_mut(self.unknowns);
         for ((q, v), &i) in q.iter_mut().zip(v).zip(self.mechanics.free()) {
             (*q, *v) = (state.q[i], state.v[i]);
         }
@@ -121,9 +119,10 @@ impl<'m> IndexOne<'m> {
 
     /// Moves to a packed state at time `t`.
     pub(crate) fn place(&mut self, t: f64, packed: &[f64]) {
-        let (q, v) = packed.split_at(self.layout.unknowns());
-        for ((q, v), &i) in q.iter().zip(v).zip(self.mechanics.free()) {
-            (self.q[i], self.v[i]) = (*q, *v);
+        let (q, v) = packed.split_at(self.unknowns);
+        for &Run { coordinate, unknown, len } in self.system.layout().runs() {
+            self.q[coordinate..coordinate + len].copy_from_slice(&q[unknown..unknown + len]);
+            self.v[coordinate..coordinate + len].copy_from_slice(&v[unknown..unknown + len]);
         }
         if self.moving {
             self.mechanics.prescribe(t, &mut self.q, &mut self.v);
@@ -136,19 +135,17 @@ impl<'m> IndexOne<'m> {
 
     /// Factors the matrix where the equations are placed.
     pub(crate) fn factor(&mut self) -> Result<(), SparseError> {
-        self.mechanics.jacobian(&self.q, &mut self.jacobian);
-        self.system.set_jacobian(&self.jacobian, &self.jacobian);
-        self.system.factor()
+        self.system.factor(&self.q)
     }
 
     /// Free accelerations by the present factors; `taut` freezes the active set.
     pub(crate) fn accelerate(&mut self, taut: Option<&[bool]>, a: &mut [f64]) -> Result<(), SparseError> {
-        let n = self.layout.unknowns();
+        let n = self.unknowns;
         let at = At { q: &self.q, v: &self.v, u: &self.inputs, taut };
         self.mechanics.force(at, &mut self.force);
         let (forces, rates) = self.rhs.split_at_mut(n);
-        for (rhs, &i) in forces.iter_mut().zip(self.mechanics.free()) {
-            *rhs = self.force[i];
+        for &Run { coordinate, unknown, len } in self.system.layout().runs() {
+            forces[unknown..unknown + len].copy_from_slice(&self.force[coordinate..coordinate + len]);
         }
         self.curvature.negative_rate(&self.v, rates);
         if self.moving {
@@ -156,7 +153,7 @@ impl<'m> IndexOne<'m> {
                 *rhs -= self.inertia.row(i, &self.carried);
             }
             for &(entry, row, i) in &self.prescribed {
-                rates[row as usize] -= self.jacobian[entry as usize] * self.carried[i as usize];
+                rates[row as usize] -= self.system.jacobian()[entry as usize] * self.carried[i as usize];
             }
         }
         self.system.solve(&mut self.rhs)?;
@@ -166,7 +163,7 @@ impl<'m> IndexOne<'m> {
 
     /// The change of the accelerations where the active set becomes `other` instead of `taut`, by the present factors.
     pub(crate) fn jump(&mut self, taut: &[bool], other: &[bool], a: &mut [f64]) -> Result<(), SparseError> {
-        let n = self.layout.unknowns();
+        let n = self.unknowns;
         for (sign, taut) in [(-1.0, taut), (1.0, other)] {
             let at = At { q: &self.q, v: &self.v, u: &self.inputs, taut: Some(taut) };
             self.mechanics.force(at, &mut self.force);
@@ -189,7 +186,7 @@ impl<'m> IndexOne<'m> {
     /// Moves the packed state, where the equations are placed and were factored nearby, onto Φ = 0 and A q̇ = 0; the scaled
     /// residual of Φ that is left. Above [`ASSEMBLED`] the velocities are not projected.
     pub(crate) fn project(&mut self, packed: &mut [f64]) -> Result<f64, SparseError> {
-        let n = self.layout.unknowns();
+        let n = self.unknowns;
         let mut residual = self.constraint_residual();
         for _ in 0..MOST_CORRECTIONS {
             if residual <= CONSISTENT {
@@ -206,27 +203,24 @@ impl<'m> IndexOne<'m> {
             return Ok(residual);
         }
         self.mechanics.jacobian(&self.q, &mut self.jacobian);
-        self.phi.fill(0.0);
-        for (&(row, i), a) in self.mechanics.jacobian_pattern().iter().zip(&self.jacobian) {
-            self.phi[row] += a * self.v[i];
-        }
+        self.operator.product(&self.jacobian, &self.v, &mut self.phi);
         self.correct(packed, n)?;
         Ok(residual)
     }
 
     /// Solves with `-phi` below and adds the solution to the packed numbers from `first` on, and to q or q̇.
     fn correct(&mut self, packed: &mut [f64], first: usize) -> Result<(), SparseError> {
-        let n = self.layout.unknowns();
+        let n = self.unknowns;
         self.rhs[..n].fill(0.0);
         for (rhs, phi) in self.rhs[n..].iter_mut().zip(&self.phi) {
             *rhs = -phi;
         }
         self.system.solve(&mut self.rhs)?;
         let full = if first == 0 { &mut self.q } else { &mut self.v };
-        let change = self.mechanics.free().iter().zip(&self.rhs);
-        for (x, (&i, delta)) in packed[first..first + n].iter_mut().zip(change) {
-            *x += delta;
-            full[i] = *x;
+        for &Run { coordinate, unknown, len } in self.system.layout().runs() {
+            let packed = &mut packed[first + unknown..first + unknown + len];
+            packed.iter_mut().zip(&self.rhs[unknown..]).for_each(|(x, change)| *x += change);
+            full[coordinate..coordinate + len].copy_from_slice(packed);
         }
         Ok(())
     }
@@ -263,12 +257,12 @@ impl<'m> IndexOne<'m> {
 
     /// A solver's error at the start.
     pub(crate) fn projection_error(&self, source: SparseError) -> ProjectionError {
-        ProjectionError::Solver { culprit: self.layout.name(self.mechanics, &source), source }
+        ProjectionError::Solver { culprit: self.system.layout().name(self.mechanics, &source), source }
     }
 
     /// A solver's error in words.
     pub(crate) fn failure(&self, source: SparseError) -> StepFailure {
-        let culprit = self.layout.name(self.mechanics, &source);
+        let culprit = self.system.layout().name(self.mechanics, &source);
         match source {
             SparseError::NonFiniteVector { .. } | SparseError::NonFiniteMatrix { .. } => {
                 let cables = match source.row() {

@@ -32,7 +32,7 @@ use crate::error::{StartError, StepError};
 use crate::kept::Kept;
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
-use crate::system::{Factors, Failure, NewtonSystem, Worst};
+use crate::system::{Factors, Failure, NewtonSystem, Worst, larger};
 
 /// The first correction removes most of a smooth residual; those after it are not trusted to do better than this.
 const FASTEST: f64 = 0.02;
@@ -42,7 +42,7 @@ const POLISHED: f64 = 1e-3;
 /// A residual that falls less than this in an iteration asks for new factors.
 const SLOW: f64 = 0.1;
 /// A step that took more iterations leaves the next one without factors.
-fn keep_up_to() -> u32 { static P: std::sync::OnceLock<u32> = std::sync::OnceLock::new(); *P.get_or_init(|| std::env::var("KEEP").ok().and_then(|s| s.parse().ok()).unwrap_or(4)) }
+const KEEP_UP_TO: u32 = 4;
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
 pub struct Symplectic<'m> {
@@ -157,6 +157,11 @@ impl<'m> Symplectic<'m> {
         self
     }
 
+    /// Length of its states' memory.
+    pub(crate) fn memory(&self) -> usize {
+        self.kept.end()
+    }
+
     /// A stepper that also takes negative steps.
     pub(crate) fn either_way(mut self) -> Self {
         self.either_way = true;
@@ -236,7 +241,7 @@ impl<'m> Symplectic<'m> {
             return Err(self.failed(Failure::NotConverged, iterations, scale));
         }
         self.finish(state, h).map_err(|error| self.failed(Failure::Projection(error), iterations, scale))?;
-        self.keep(state, h, frozen || iterations > keep_up_to());
+        self.keep(state, h, frozen || iterations > KEEP_UP_TO);
         Ok(Converged { frozen: frozen && forced == 0, forced, ..converged })
     }
 
@@ -351,7 +356,8 @@ impl<'m> Symplectic<'m> {
                 rows.zip(terms).zip(&system.constraint_force[full])
             {
                 let (momentum, force) = (h * p, half * force);
-                scale = scale.max(inertial.abs().max(momentum.abs())).max(force.abs().max(reaction.abs()));
+                let term = larger(larger(inertial.abs(), momentum.abs()), larger(force.abs(), reaction.abs()));
+                scale = larger(scale, term);
                 *r = inertial - momentum - force - reaction;
             }
         }
@@ -367,7 +373,7 @@ impl<'m> Symplectic<'m> {
         for &Run { coordinate, unknown, len } in system.layout.runs() {
             for (delta, change) in w.delta[coordinate..coordinate + len].iter_mut().zip(&rhs[unknown..]) {
                 *delta -= change;
-                largest = largest.max(change.abs());
+                largest = larger(largest, change.abs());
             }
         }
         for (nu, change) in w.nu.iter_mut().zip(multipliers) {
@@ -520,5 +526,5 @@ impl Symplectic<'_> {
 }
 
 fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+    x.iter().fold(0.0, |largest, x| larger(largest, x.abs()))
 }

@@ -118,15 +118,15 @@ impl<'m> NewtonSystem<'m> {
         let (dynamic, constraints) = self.rhs.split_at(self.layout.unknowns());
         let (mut largest, mut sum) = (0.0_f64, 0.0);
         for r in dynamic {
-            largest = largest.max(r.abs());
+            largest = larger(largest, r.abs());
             sum += r;
         }
         let (mut violated, mut rest) = (0.0_f64, 0.0);
         for (phi, scale) in constraints.iter().zip(&self.constraint_scales) {
-            violated = violated.max((phi * scale).abs());
+            violated = larger(violated, (phi * scale).abs());
             rest += phi;
         }
-        // `max` overlooks NaN, sums do not.
+        // Comparisons overlook NaN, sums do not.
         if (sum + rest).is_nan() { f64::NAN } else { (largest / floor(scale)).max(violated) }
     }
 
@@ -206,16 +206,26 @@ impl<'m> NewtonSystem<'m> {
 
     /// A failed iteration in words.
     pub(crate) fn failure(&self, failure: Failure, iterations: u32, worst: Worst) -> StepFailure {
-        let (name, cables) = self.words(worst.row);
-        match failure {
-            Failure::NotConverged => {
-                StepFailure::NotConverged { iterations, residual: worst.residual, worst: name, cables }
+        failure.explain(self.mechanics, self.words(worst.row), iterations, worst.residual)
+    }
+}
+
+impl Failure {
+    /// In words, with the worst row's name and cables.
+    pub(crate) fn explain(
+        self,
+        mechanics: &dyn Mechanics,
+        (worst, cables): (String, Vec<String>),
+        iterations: u32,
+        residual: f64,
+    ) -> StepFailure {
+        match self {
+            Self::NotConverged => StepFailure::NotConverged { iterations, residual, worst, cables },
+            Self::NotFinite => StepFailure::NotFinite { worst, cables },
+            Self::Solver(source) => {
+                StepFailure::Solver { culprit: Layout::new(mechanics).name(mechanics, &source), source }
             }
-            Failure::NotFinite => StepFailure::NotFinite { worst: name, cables },
-            Failure::Solver(source) => {
-                StepFailure::Solver { culprit: self.layout.name(self.mechanics, &source), source }
-            }
-            Failure::Projection(error) => StepFailure::Projection(error),
+            Self::Projection(error) => StepFailure::Projection(error),
         }
     }
 }
@@ -226,6 +236,12 @@ impl Worst {
         if residual <= self.residual || self.residual.is_nan() { self } else { Self { residual, row } }
     }
 
+}
+
+/// The larger number, in one instruction; `f64::max` also looks for NaN.
+#[inline(always)]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// A scale that may be divided by.

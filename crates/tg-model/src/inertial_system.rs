@@ -9,7 +9,6 @@ use tg_sparse::{SaddlePattern, SaddleSystem, SparseError, SymmetricSystem};
 
 use crate::layout::Layout;
 use crate::mechanics::Mechanics;
-use crate::projector::ProjectionError;
 
 /// `[M -Aᵀ; A 0]` of a system, its factors and buffers; factored at one configuration after another.
 pub struct InertialSystem<'m> {
@@ -30,12 +29,10 @@ impl<'m> InertialSystem<'m> {
     ///
     /// # Errors
     /// The pattern cannot be analysed.
-    pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
+    pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, SparseError> {
         let layout = Layout::new(mechanics);
         let pattern: Vec<_> = mechanics.mass().iter().map(|e| (e.row, e.col)).collect();
-        let pattern = layout
-            .saddle(mechanics, &[&pattern])
-            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
+        let pattern = layout.saddle(mechanics, &[&pattern])?;
         let mass: Vec<f64> = mechanics.mass().iter().map(|e| e.value).collect();
         Ok(Self {
             system: SymmetricSystem::new(pattern.clone(), &[&mass]),
@@ -78,7 +75,7 @@ impl<'m> InertialSystem<'m> {
     ///
     /// # Errors
     /// The matrix is singular or not finite.
-    pub fn factor(&mut self, q: &[f64]) -> Result<(), ProjectionError> {
+    pub fn factor(&mut self, q: &[f64]) -> Result<(), SparseError> {
         self.mechanics.jacobian(q, &mut self.jacobian);
         self.is_robust = false;
         match self.system.factor(&self.jacobian) {
@@ -91,14 +88,13 @@ impl<'m> InertialSystem<'m> {
     ///
     /// # Errors
     /// The matrix is singular or not finite.
-    pub fn factor_robustly(&mut self) -> Result<(), ProjectionError> {
+    pub fn factor_robustly(&mut self) -> Result<(), SparseError> {
         let robust = self.robust.get_or_insert_with(|| Box::new(SaddleSystem::new(self.pattern.clone())));
         robust.clear_leading();
         robust.add_leading(0, 1.0, &self.mass);
         robust.set_jacobian(&self.jacobian, &self.jacobian);
         self.is_robust = true;
-        let result = robust.factor();
-        self.named(result)
+        robust.factor()
     }
 
     /// Replaces `[f; g]` by `[x; y]`. Away from singular configurations the solution is not checked: see that A x = g.
@@ -106,23 +102,15 @@ impl<'m> InertialSystem<'m> {
     ///
     /// # Errors
     /// The matrix is singular.
-    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<bool, ProjectionError> {
+    pub fn solve(&mut self, rhs: &mut [f64]) -> Result<bool, SparseError> {
         match &mut self.robust {
             Some(robust) if self.is_robust => {
-                let result = robust.solve(rhs).map(drop);
-                self.named(result).map(|()| true)
+                robust.solve(rhs).map(|_| true)
             }
             _ => {
                 self.system.solve(rhs);
                 Ok(false)
             }
         }
-    }
-
-    fn named<T>(&self, result: Result<T, SparseError>) -> Result<T, ProjectionError> {
-        result.map_err(|source| ProjectionError::Solver {
-            culprit: self.layout.name(self.mechanics, &source),
-            source,
-        })
     }
 }

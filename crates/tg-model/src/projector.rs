@@ -15,7 +15,7 @@ use thiserror::Error;
 use crate::inertia::Inertia;
 use crate::inertial_system::InertialSystem;
 use crate::jacobian::Jacobian;
-use crate::layout::Run;
+use crate::layout::{Layout, Run};
 use crate::mechanics::Mechanics;
 
 /// Scaled constraint residual at which positions count as consistent: a few roundings of a squared length.
@@ -84,7 +84,10 @@ impl<'m> Projector<'m> {
     /// # Errors
     /// The pattern cannot be analysed.
     pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
-        let system = InertialSystem::new(mechanics)?;
+        let system = InertialSystem::new(mechanics).map_err(|source| ProjectionError::Solver {
+            culprit: Layout::new(mechanics).name(mechanics, &source),
+            source,
+        })?;
         let sizes = mechanics.sizes();
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
@@ -102,7 +105,7 @@ impl<'m> Projector<'m> {
     /// # Errors
     /// The matrix is singular or not finite.
     pub fn velocity(&mut self, q: &[f64], v: &mut [f64]) -> Result<Moved, ProjectionError> {
-        self.system.factor(q)?;
+        self.factor(q)?;
         let n = self.unknowns;
         self.rhs[..n].fill(0.0);
         self.correct_velocity(v)
@@ -120,27 +123,9 @@ impl<'m> Projector<'m> {
         impulse: impl FnOnce(&[f64], &mut [f64]),
         v: &mut [f64],
     ) -> Result<f64, ProjectionError> {
-        self.system.factor(q)?;
+        self.factor(q)?;
         impulse(self.system.jacobian(), &mut self.rhs);
         self.solve_for(v, None)
-    }
-
-    /// The velocity of momentum `p = M q̇ + Aᵀ(..)` (free components): `v` holds a guess with its prescribed
-    /// components and becomes the velocity on A(q) q̇ = 0 whose momentum differs from `p` by a constraint impulse.
-    ///
-    /// # Errors
-    /// The matrix is singular or not finite.
-    pub fn velocity_of_momentum(
-        &mut self,
-        q: &[f64],
-        p: &[f64],
-        v: &mut [f64],
-    ) -> Result<Moved, ProjectionError> {
-        self.system.factor(q)?;
-        for ((rhs, &p), &i) in self.rhs.iter_mut().zip(p).zip(self.mechanics.free()) {
-            *rhs = p - self.inertia.row(i, v);
-        }
-        self.correct_velocity(v)
     }
 
     /// Accelerations and multipliers at a consistent state: `M q̈ - Aᵀ λ = F, A q̈ = -Ȧ q̇`, given the full force F and
@@ -156,13 +141,23 @@ impl<'m> Projector<'m> {
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), ProjectionError> {
-        self.system.factor(q)?;
+        self.factor(q)?;
         for (rhs, &i) in self.rhs.iter_mut().zip(self.mechanics.free()) {
             *rhs = force[i] - self.inertia.row(i, a);
         }
         self.solve_for(a, Some(rates))?;
         lambda.copy_from_slice(&self.rhs[self.unknowns..]);
         Ok(())
+    }
+
+    /// Multipliers ν of the last projection of velocities \[N s/m for dot products, N s for joints\]: its impulse is Aᵀ ν.
+    pub fn multipliers(&self) -> &[f64] {
+        &self.rhs[self.unknowns..]
+    }
+
+    /// The linear system, factored where the last projection was made.
+    pub fn system(&mut self) -> &mut InertialSystem<'m> {
+        &mut self.system
     }
 
     /// The system that states are projected for.
@@ -190,12 +185,12 @@ impl<'m> Projector<'m> {
                 return Err(ProjectionError::NotConverged { constraint, residual, iterations });
             }
             before = residual;
-            self.system.factor(q)?;
+            self.factor(q)?;
             self.rhs[..n].fill(0.0);
             for (rhs, phi) in self.rhs[n..].iter_mut().zip(&self.phi) {
                 *rhs = -phi;
             }
-            self.system.solve(&mut self.rhs)?;
+            self.solve()?;
             for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
                 q[i] += delta;
             }
@@ -226,6 +221,23 @@ impl<'m> Projector<'m> {
         self.system.fallbacks()
     }
 
+    fn factor(&mut self, q: &[f64]) -> Result<(), ProjectionError> {
+        let result = self.system.factor(q);
+        self.named(result)
+    }
+
+    fn solve(&mut self) -> Result<bool, ProjectionError> {
+        let result = self.system.solve(&mut self.rhs);
+        self.named(result)
+    }
+
+    fn named<T>(&self, result: Result<T, SparseError>) -> Result<T, ProjectionError> {
+        result.map_err(|source| ProjectionError::Solver {
+            culprit: self.system.layout().name(self.mechanics, &source),
+            source,
+        })
+    }
+
     /// Solves for the correction with the momentum part of the right-hand side in place.
     fn correct_velocity(&mut self, v: &mut [f64]) -> Result<Moved, ProjectionError> {
         let residual = self.solve_for(v, None)?;
@@ -246,7 +258,7 @@ impl<'m> Projector<'m> {
         for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
             *rhs = -rate;
         }
-        let checked = self.system.solve(&mut self.rhs)?;
+        let checked = self.solve()?;
         for &Run { coordinate, unknown, len } in self.system.layout().runs() {
             let changes = &self.rhs[unknown..unknown + len];
             x[coordinate..coordinate + len].iter_mut().zip(changes).for_each(|(x, change)| *x += change);
@@ -261,17 +273,18 @@ impl<'m> Projector<'m> {
     /// Once more for what a solve without checks left, with every check.
     #[cold]
     fn refine(&mut self, x: &mut [f64], rates: Option<&[f64]>) -> Result<f64, ProjectionError> {
-        self.system.factor_robustly()?;
-        let n = self.unknowns;
-        let mut more = vec![0.0; self.rhs.len()];
-        for (more, rate) in more[n..].iter_mut().zip(&self.phi) {
-            *more = -rate;
+        let result = self.system.factor_robustly();
+        self.named(result)?;
+        let (n, first) = (self.unknowns, self.rhs.clone());
+        self.rhs[..n].fill(0.0);
+        for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
+            *rhs = -rate;
         }
-        self.system.solve(&mut more)?;
-        for (&i, delta) in self.mechanics.free().iter().zip(&more) {
+        self.solve()?;
+        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
             x[i] += delta;
         }
-        self.rhs.iter_mut().zip(&more).for_each(|(x, d)| *x += d);
+        self.rhs.iter_mut().zip(&first).for_each(|(x, first)| *x += first);
         Ok(self.rate_left(x, rates).0)
     }
 
@@ -283,7 +296,7 @@ impl<'m> Projector<'m> {
             self.phi.iter_mut().zip(rates).for_each(|(sum, rate)| *sum += rate);
         }
         for rate in &self.phi {
-            largest = largest.max(rate.abs());
+            largest = if rate.abs() > largest { rate.abs() } else { largest };
         }
         (largest, size)
     }

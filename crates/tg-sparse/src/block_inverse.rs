@@ -9,6 +9,7 @@
 //! Triangular solves wait for one unknown after the other; products do not. The explicit inverse costs as much as the
 //! factorisation, and some digits where a block is ill-conditioned: only iterations that check their own residual use it.
 
+use crate::kernels::add_multiple;
 use crate::static_lu::Factored;
 use crate::symbolic::Symbolic;
 
@@ -28,28 +29,29 @@ pub(crate) struct BlockInverse {
     start: Vec<u32>,
     /// x₁ and −x₂ of one front.
     local: Vec<f64>,
-    /// One column while it is made.
-    column: Vec<f64>,
+    /// The rows of a front while its blocks are made.
+    rows: Vec<f64>,
 }
 
 impl BlockInverse {
     pub(crate) fn new(symbolic: &Symbolic) -> Self {
         let mut start = vec![0];
-        let mut len = 0;
+        let (mut len, mut largest) = (0, 0);
         for front in &symbolic.fronts {
             let (w, r) = (front.width, front.rest_len());
             len += w * chunks(r) + (w + r) * chunks(w);
+            largest = largest.max(w * (w + r));
             start.push(len as u32);
         }
         Self {
             values: vec![[0.0; LANES]; len],
             start,
             local: vec![0.0; symbolic.longest],
-            column: vec![0.0; symbolic.longest],
+            rows: vec![0.0; largest],
         }
     }
 
-    /// Makes the blocks from factors.
+    /// Makes the blocks from factors. Every loop adds a multiple of one row or column to another.
     pub(crate) fn set(&mut self, symbolic: &Symbolic, factored: Factored<'_>) {
         for (at, front) in symbolic.fronts.iter().enumerate() {
             let (w, r, stride) = (front.width, front.rest_len(), front.stride());
@@ -57,38 +59,40 @@ impl BlockInverse {
             let inverse = &factored.inverse[front.first..front.first + w];
             let blocks = &mut self.values[self.start[at] as usize..self.start[at + 1] as usize];
             let (left, right) = blocks.split_at_mut(w * chunks(r));
+            // Rows of [L₁₁⁻¹ | U₁₂].
+            let rows = &mut self.rows[..w * (w + r)];
+            for k in 0..w {
+                let (above, row) = rows.split_at_mut(k * (w + r));
+                let row = &mut row[..w + r];
+                row[..w].fill(0.0);
+                row[k] = 1.0;
+                row[w..].copy_from_slice(&panel[k * stride + w..][..r]);
+                for (source, l) in above.chunks_exact(w + r).zip(&panel[k * stride..]) {
+                    add_multiple(&mut row[..k], source, -l);
+                }
+            }
+            // G = L₂₁ L₁₁⁻¹ by columns.
             if r > 0 {
-                // G L₁₁ = L₂₁, last column first.
-                for k in (0..w).rev() {
-                    let (before, after) = left.split_at_mut((k + 1) * chunks(r));
-                    let column = before[k * chunks(r)..].as_flattened_mut();
-                    column[..r].copy_from_slice(&panel[k * stride + w + r..][..r]);
-                    for (i, g) in (k + 1..w).zip(after.chunks_exact(chunks(r))) {
-                        let l = panel[i * stride + k];
-                        column.iter_mut().zip(g.as_flattened()).for_each(|(c, g)| *c -= l * g);
+                for (c, column) in left.chunks_exact_mut(chunks(r)).enumerate() {
+                    let column = &mut column.as_flattened_mut()[..r];
+                    column.copy_from_slice(&panel[c * stride + w + r..][..r]);
+                    for k in c + 1..w {
+                        add_multiple(column, &panel[k * stride + w + r..][..r], rows[k * (w + r) + c]);
                     }
                 }
             }
-            let column = &mut self.column[..w];
-            for (c, target) in right.chunks_exact_mut(chunks(w)).enumerate() {
-                if c < w {
-                    // L₁₁ z = e_c.
-                    column.fill(0.0);
-                    column[c] = 1.0;
-                    for i in c + 1..w {
-                        let row = &panel[i * stride + c..i * stride + i];
-                        column[i] = -row.iter().zip(&column[c..i]).map(|(l, z)| l * z).sum::<f64>();
-                    }
-                } else {
-                    (0..w).for_each(|k| column[k] = panel[k * stride + c]);
+            // U₁₁⁻¹ of these rows, from the last, is [P | W].
+            for k in (0..w).rev() {
+                let (row, below) = rows[k * (w + r)..].split_at_mut(w + r);
+                for (source, u) in below.chunks_exact(w + r).zip(&panel[k * stride + k + 1..]) {
+                    add_multiple(row, source, -u);
                 }
-                // U₁₁ x = z.
-                for k in (0..w).rev() {
-                    let row = &panel[k * stride + k + 1..k * stride + w];
-                    let sum: f64 = row.iter().zip(&column[k + 1..]).map(|(u, x)| u * x).sum();
-                    column[k] = (column[k] - sum) * inverse[k];
+                row.iter_mut().for_each(|x| *x *= inverse[k]);
+            }
+            for (k, row) in rows.chunks_exact(w + r).enumerate() {
+                for (column, x) in right.chunks_exact_mut(chunks(w)).zip(row) {
+                    column.as_flattened_mut()[k] = *x;
                 }
-                target.as_flattened_mut()[..w].copy_from_slice(column);
             }
         }
     }

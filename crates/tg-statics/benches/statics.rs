@@ -1,9 +1,10 @@
-//! Inverse and forward statics and stability of a spine of vertebrae, by its size.
+//! Inverse and forward statics and stability of a spine of vertebrae, rest lengths of the prism mast, by their size.
 
 use std::hint::black_box;
+use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use tg_fixtures::spine;
+use tg_fixtures::{Mast, MastScene, spine};
 use tg_model::Mechanics;
 use tg_statics::{
     Configuration, Forward, ForwardOptions, InverseStatics, Request, SelfStress, Unknown, stability,
@@ -42,5 +43,22 @@ fn statics(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, statics);
+/// Rest lengths that hold the mast, every cable at 1 N or more.
+fn inverse(c: &mut Criterion) {
+    let mut group = c.benchmark_group("mast");
+    group.sample_size(10).measurement_time(Duration::from_secs(1));
+    // Dense work: cubic in the size.
+    for stages in [2, 8, 32] {
+        let Ok(mast) = Mast::build(&MastScene::balanced(stages)) else { continue };
+        let model = mast.model;
+        let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
+        let request = Request::new(Unknown::RestLength).tension_between(1.0, 200.0);
+        group.bench_function(BenchmarkId::new("inverse", stages), |b| {
+            b.iter(|| black_box(InverseStatics::new(&model, &q, &u).and_then(|s| s.solve(&request)).is_ok()));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, statics, inverse);
 criterion_main!(benches);

@@ -4,11 +4,13 @@
 //! - [`double_pendulum`]: example 1 of the framework paper, Sec. 6.1;
 //! - [`tower`]: modes and dynamics of example 2, Sec. 6.2;
 //! - [`deployable`]: example 3, Sec. 6.3;
-//! - [`mechanism`]: the compliant-mechanism paper, all equilibria.
+//! - [`mechanism`]: the compliant-mechanism paper, all equilibria;
+//! - [`mast`]: the prism mast that other tools were measured on.
 
 pub mod antiprism;
 pub mod deployable;
 pub mod double_pendulum;
+pub mod mast;
 pub mod mechanism;
 pub mod tower;
 
@@ -28,8 +30,8 @@ pub struct Case {
     pub rows: fn() -> Result<Vec<Row>, CaseError>,
 }
 
-/// All cases in the order of the papers.
-pub const CASES: [Case; 5] = [
+/// All cases in the order of the papers, then the mast.
+pub const CASES: [Case; 6] = [
     Case {
         name: double_pendulum::NAME,
         title: "framework paper, Sec. 6.1: dynamics of a double pendulum",
@@ -54,6 +56,11 @@ pub const CASES: [Case; 5] = [
         name: mechanism::NAME,
         title: "compliant-mechanism paper: all equilibria of its three cases",
         rows: mechanism::rows,
+    },
+    Case {
+        name: mast::NAME,
+        title: "prism mast: the scene that other tools were measured on",
+        rows: mast::rows,
     },
 ];
 

@@ -26,7 +26,7 @@ macro_rules! cases {
     };
 }
 
-cases!(example1, example2, example3, antiprism, mechanism);
+cases!(example1, example2, example3, antiprism, mechanism, mast);
 
 #[test]
 fn a_row_holds_only_within_its_tolerance() {

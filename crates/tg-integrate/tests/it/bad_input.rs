@@ -83,7 +83,7 @@ fn foreign_states_are_refused() {
     }
     let mut state = start(&model, &mut symplectic(&model));
     let error = alpha(&model, 0.7).step(&mut state, 1e-3).unwrap_err();
-    assert!(matches!(error.failure, StepFailure::ForeignState { what: "numbers in memory", got: 0, .. }));
+    assert!(matches!(error.failure, StepFailure::ForeignState { what: "numbers in memory", .. }));
 }
 
 #[test]

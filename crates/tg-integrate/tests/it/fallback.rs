@@ -54,8 +54,8 @@ fn vanishing_pivot_is_solved_by_the_fallback_and_counted() {
     let summary = run(&mut stepper, &mut state, H, 1.0);
     println!("{summary:?}");
     assert_eq!((summary.steps, summary.divided), (32, 0));
-    // Most: where rounding leaves 1e-16 of the pivot, refinement sometimes saves the static order's solution.
-    assert!(summary.fallbacks >= 16, "{summary:?}");
+    // Its factors serve many steps.
+    assert!(summary.fallbacks >= 1, "{summary:?}");
     let phase = 32.0 * 2.0 * (0.5 * H * 100.0_f64.sqrt()).atan();
     assert!((state.q[x] - 0.75 - 0.25 * phase.cos()).abs() < 1e-11, "{}", state.q[x]);
 }

@@ -1,0 +1,99 @@
+//! The schemes that are measured: one entry each.
+
+use tg_integrate::{GeneralizedAlpha, NewtonOptions, StartError, State, Stepper, Symplectic};
+use tg_model::Mechanics;
+
+use super::scene::Scene;
+use crate::TaskError;
+
+/// Time between two samples of a trajectory \[s\]; a scheme makes whole steps within it.
+pub(crate) const SAMPLE: f64 = 0.01;
+
+/// How exact a scheme is asked to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Dial {
+    /// Steps within a sample.
+    Steps(u32),
+    /// Tolerance of a scheme that chooses its own steps.
+    #[allow(dead_code, reason = "for schemes that choose their steps")]
+    Tolerance(f64),
+}
+
+impl Dial {
+    /// The paper's step of 1 ms.
+    pub(crate) const PAPER: Self = Self::Steps(10);
+
+    /// Calls of `step` within a sample; a scheme that chooses its steps is called once.
+    pub(crate) fn calls(self) -> u32 {
+        match self {
+            Self::Steps(steps) => steps,
+            Self::Tolerance(_) => 1,
+        }
+    }
+
+    /// What is passed to `step` \[s\].
+    pub(crate) fn step(self) -> f64 {
+        SAMPLE / f64::from(self.calls())
+    }
+}
+
+/// Dials from coarse to fine.
+const STEPS: &[Dial] = &[
+    Dial::Steps(1),
+    Dial::Steps(2),
+    Dial::Steps(5),
+    Dial::Steps(10),
+    Dial::Steps(20),
+    Dial::Steps(40),
+    Dial::Steps(80),
+];
+
+/// A scheme with its settings.
+pub(crate) struct Scheme {
+    pub(crate) name: &'static str,
+    /// What its curve of error against time is drawn through.
+    pub(crate) dials: &'static [Dial],
+    /// Variant of the floor program that does the same.
+    pub(crate) floor: Option<&'static str>,
+    pub(crate) make: Make,
+}
+
+type Make = for<'m> fn(&'m dyn Mechanics, Dial) -> Result<Box<dyn Stepper + 'm>, StartError>;
+
+/// All schemes.
+pub(crate) const SCHEMES: [Scheme; 3] = [
+    Scheme {
+        name: "symplectic",
+        dials: STEPS,
+        floor: Some("imp 10 kept, 1e-12"),
+        make: |mechanics, _| Ok(Box::new(Symplectic::new(mechanics, NewtonOptions::default())?)),
+    },
+    Scheme {
+        name: "symplectic, 1e-10",
+        dials: STEPS,
+        floor: Some("imp 10 kept, 1e-10"),
+        make: |mechanics, _| {
+            let options = NewtonOptions { tolerance: 1e-10, ..NewtonOptions::default() };
+            Ok(Box::new(Symplectic::new(mechanics, options)?))
+        },
+    },
+    Scheme {
+        name: "generalised-α, 0.7",
+        dials: STEPS,
+        floor: None,
+        make: |mechanics, _| Ok(Box::new(GeneralizedAlpha::new(mechanics, 0.7, NewtonOptions::default())?)),
+    },
+];
+
+impl Scheme {
+    /// A stepper and its first state.
+    pub(crate) fn start<'m>(
+        &self,
+        scene: &'m Scene,
+        dial: Dial,
+    ) -> Result<(Box<dyn Stepper + 'm>, State), TaskError> {
+        let mut stepper = (self.make)(scene.mechanics.as_ref(), dial)?;
+        let state = stepper.start(0.0, &scene.q, &scene.v)?;
+        Ok((stepper, state))
+    }
+}
