@@ -5,8 +5,9 @@
 //! that both halves of a solve add multiples of contiguous rows. Update matrices are stored in full: adding whole rows is
 //! cheaper than finding their upper halves.
 
+use crate::kernels::dot;
 use crate::pattern::SaddlePattern;
-use crate::pivot::{PIVOT_DOUBTFUL, PivotTrouble};
+use crate::pivot::{PIVOT_WEAK, PivotTrouble};
 use crate::symbolic::{Front, Symbolic};
 
 /// Numbers that the loops take at a time.
@@ -177,23 +178,30 @@ impl Ldlt {
                 add_child(shape, square, rest, update, values, child.rest_chunks * LANES, relative);
             }
             let own = shape.first..shape.first + shape.width;
-            let (inverse, scale) = (&mut self.inverse[own.clone()], &mut self.scale[own]);
-            let square = square.as_chunks_mut().0;
-            let rest = rest.as_chunks_mut().0;
-            let update = update.as_chunks_mut().0;
-            let sums = &mut self.local.as_chunks_mut().0[..shape.rest_chunks];
-            // The sizes as constants let the loops unroll.
+            let elimination = Elimination {
+                square,
+                rest,
+                update,
+                inverse: &mut self.inverse[own.clone()],
+                scale: &mut self.scale[own],
+                later: &mut self.local[..shape.rest_chunks * LANES],
+            };
+            // The sizes as constants keep the rows in registers.
             let failed = match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => eliminate(1, 0, square, rest, update, inverse, scale, sums),
-                (1, 1) => eliminate(1, 1, square, rest, update, inverse, scale, sums),
-                (2, 0) => eliminate(2, 0, square, rest, update, inverse, scale, sums),
-                (2, 1) => eliminate(2, 1, square, rest, update, inverse, scale, sums),
-                (3, 1) => eliminate(3, 1, square, rest, update, inverse, scale, sums),
-                (p, r) => eliminate(p, r, square, rest, update, inverse, scale, sums),
+                (1, 0) => eliminate::<1, 0>(elimination),
+                (1, 1) => eliminate::<1, 1>(elimination),
+                (1, 2) => eliminate::<1, 2>(elimination),
+                (2, 0) => eliminate::<2, 0>(elimination),
+                (2, 1) => eliminate::<2, 1>(elimination),
+                (2, 2) => eliminate::<2, 2>(elimination),
+                (3, 0) => eliminate::<3, 0>(elimination),
+                (3, 1) => eliminate::<3, 1>(elimination),
+                (p, r) => eliminate_any(p, r, elimination),
             };
             if let Some(row) = failed {
-                let (pivot, scale) = (1.0 / inverse[row], scale[row]);
-                return Err(PivotTrouble { position: shape.first + row, pivot, scale });
+                let position = shape.first + row;
+                let (pivot, scale) = (1.0 / self.inverse[position], self.scale[position]);
+                return Err(PivotTrouble { position, pivot, scale });
             }
             let sums = self.local.iter().take(shape.rest);
             for (&i, sum) in symbolic.rest[front.rest.clone()].iter().zip(sums) {
@@ -208,23 +216,29 @@ impl Ldlt {
         for (shape, front) in layout.shapes.iter().zip(&symbolic.fronts) {
             let parts = self.parts(symbolic, shape, front);
             match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => forward(1, 0, parts, x),
-                (1, 1) => forward(1, 1, parts, x),
-                (2, 0) => forward(2, 0, parts, x),
-                (2, 1) => forward(2, 1, parts, x),
-                (3, 1) => forward(3, 1, parts, x),
-                (p, r) => forward(p, r, parts, x),
+                (1, 0) => forward::<1, 0>(parts, x),
+                (1, 1) => forward::<1, 1>(parts, x),
+                (1, 2) => forward::<1, 2>(parts, x),
+                (2, 0) => forward::<2, 0>(parts, x),
+                (2, 1) => forward::<2, 1>(parts, x),
+                (2, 2) => forward::<2, 2>(parts, x),
+                (3, 0) => forward::<3, 0>(parts, x),
+                (3, 1) => forward::<3, 1>(parts, x),
+                (p, r) => forward_any(p, r, parts, x),
             }
         }
         for (shape, front) in layout.shapes.iter().zip(&symbolic.fronts).rev() {
             let parts = self.parts(symbolic, shape, front);
             match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => backward(1, 0, parts, x),
-                (1, 1) => backward(1, 1, parts, x),
-                (2, 0) => backward(2, 0, parts, x),
-                (2, 1) => backward(2, 1, parts, x),
-                (3, 1) => backward(3, 1, parts, x),
-                (p, r) => backward(p, r, parts, x),
+                (1, 0) => backward::<1, 0>(parts, x),
+                (1, 1) => backward::<1, 1>(parts, x),
+                (1, 2) => backward::<1, 2>(parts, x),
+                (2, 0) => backward::<2, 0>(parts, x),
+                (2, 1) => backward::<2, 1>(parts, x),
+                (2, 2) => backward::<2, 2>(parts, x),
+                (3, 0) => backward::<3, 0>(parts, x),
+                (3, 1) => backward::<3, 1>(parts, x),
+                (p, r) => backward_any(p, r, parts, x),
             }
         }
     }
@@ -233,24 +247,24 @@ impl Ldlt {
         let panel = &self.panels[shape.panel..shape.panel + shape.panel_len()];
         let (square, rest) = panel.split_at(shape.square_len());
         Parts {
-            square: square.as_chunks().0,
-            rest: rest.as_chunks().0,
+            square,
+            rest,
             inverse: &self.inverse[shape.first..shape.first + shape.width],
             first: shape.first,
             later: &symbolic.rest[front.rest.clone()],
-            local: self.local.as_chunks_mut().0,
+            local: &mut self.local,
         }
     }
 }
 
 /// What a solve needs of one front.
 struct Parts<'a> {
-    square: &'a [Chunk],
-    rest: &'a [Chunk],
+    square: &'a [f64],
+    rest: &'a [f64],
     inverse: &'a [f64],
     first: usize,
     later: &'a [u32],
-    local: &'a mut [Chunk],
+    local: &'a mut [f64],
 }
 
 /// Adds a child's update matrix to the panel and the update matrix of its parent.
@@ -288,71 +302,134 @@ fn add_child(
     }
 }
 
-/// Eliminates a front; `sums` receives what its rows add to the scales of later pivots. The row of a pivot that is lost.
-#[allow(clippy::too_many_arguments)]
+/// What the elimination of one front reads and writes.
+struct Elimination<'a> {
+    square: &'a mut [f64],
+    rest: &'a mut [f64],
+    update: &'a mut [f64],
+    /// Reciprocal pivots.
+    inverse: &'a mut [f64],
+    /// Magnitudes that went into the pivots.
+    scale: &'a mut [f64],
+    /// Receives what the rows add to those of later pivots.
+    later: &'a mut [f64],
+}
+
+/// The reciprocal of a pivot that is not lost. Not of NaN either.
 #[inline(always)]
-fn eliminate(
-    square_chunks: usize,
-    rest_chunks: usize,
-    square: &mut [Chunk],
-    rest: &mut [Chunk],
-    update: &mut [Chunk],
-    inverse: &mut [f64],
-    scale: &mut [f64],
-    sums: &mut [Chunk],
-) -> Option<usize> {
+fn invert(pivot: f64, scale: f64) -> Option<f64> {
+    (pivot.abs() > PIVOT_WEAK * scale && pivot.is_finite()).then(|| 1.0 / pivot)
+}
+
+/// Eliminates a front whose rows have P and R chunks. The row of a pivot that is lost.
+fn eliminate<const P: usize, const R: usize>(front: Elimination<'_>) -> Option<usize> {
+    let Elimination { square, rest, update, inverse, scale, later: sums } = front;
     let w = inverse.len();
+    let square = &mut rows_mut::<P>(square)[..w];
+    let mut magnitude = [[0.0; LANES]; P];
+    magnitude.as_flattened_mut()[..w].copy_from_slice(scale);
+    let mut later = [[0.0; LANES]; R];
+    // Without rest there are no such rows.
+    let rest = if R == 0 { &mut [][..] } else { &mut rows_mut::<R>(rest)[..w] };
     for k in 0..w {
-        let (row, below) = square[k * square_chunks..].split_at_mut(square_chunks);
-        let pivot = row.as_flattened()[k];
-        inverse[k] = 1.0 / pivot;
-        // Also true of NaN.
-        if !(pivot.abs() > PIVOT_DOUBTFUL * scale[k] && pivot.is_finite()) {
+        let row = square[k];
+        let Some(reciprocal) = invert(row[k / LANES][k % LANES], magnitude[k / LANES][k % LANES]) else {
+            inverse[k] = 1.0 / row[k / LANES][k % LANES];
+            scale[k] = magnitude[k / LANES][k % LANES];
             return Some(k);
+        };
+        inverse[k] = reciprocal;
+        for c in 0..P {
+            add_squares(&mut magnitude[c], &row[c], reciprocal);
         }
-        let (own_rest, below_rest) = rest[k * rest_chunks..].split_at_mut(rest_chunks);
+        let flat = row.as_flattened();
         for i in k + 1..w {
-            let target = &mut below[(i - k - 1) * square_chunks..][..square_chunks];
-            let u = row.as_flattened()[i];
-            let l = u * inverse[k];
-            for (target, source) in target.iter_mut().zip(&*row).skip(k / LANES) {
-                subtract(target, source, l);
+            let l = flat[i] * reciprocal;
+            for c in 0..P {
+                subtract(&mut square[i][c], &row[c], l);
             }
-            scale[i] += (l * u).abs();
-            let target = &mut below_rest[(i - k - 1) * rest_chunks..][..rest_chunks];
-            for (target, source) in target.iter_mut().zip(&*own_rest) {
-                subtract(target, source, l);
+        }
+        if R > 0 {
+            let own = rest[k];
+            for c in 0..R {
+                add_squares(&mut later[c], &own[c], reciprocal);
+            }
+            for i in k + 1..w {
+                let l = flat[i] * reciprocal;
+                for c in 0..R {
+                    subtract(&mut rest[i][c], &own[c], l);
+                }
             }
         }
     }
-    // Whole chunks were subtracted: what stands below the diagonal is to be written only now.
-    let square = square.as_flattened_mut();
-    let stride = square_chunks * LANES;
-    for i in 1..w {
-        for k in 0..i {
-            square[i * stride + k] = square[k * stride + i] * inverse[k];
+    // Whole rows were subtracted: what stands below the diagonal is to be written only now.
+    for k in 0..w {
+        let (row, reciprocal) = (square[k], inverse[k]);
+        let flat = row.as_flattened();
+        for i in k + 1..w {
+            square[i][k / LANES][k % LANES] = flat[i] * reciprocal;
         }
     }
-    sums.fill([0.0; LANES]);
-    if rest_chunks == 0 {
-        return None;
-    }
-    for (row, &inverse) in rest.chunks_exact(rest_chunks).zip(&*inverse) {
-        for (sum, chunk) in sums.iter_mut().zip(row) {
-            for (s, u) in sum.iter_mut().zip(chunk) {
-                *s += (u * u * inverse).abs();
+    if R > 0 {
+        sums.copy_from_slice(later.as_flattened());
+        for (i, target) in rows_mut::<R>(update).iter_mut().enumerate() {
+            let mut row = *target;
+            for (own, &reciprocal) in rest.iter().zip(&*inverse) {
+                let l = own[i / LANES][i % LANES] * reciprocal;
+                for c in 0..R {
+                    subtract(&mut row[c], &own[c], l);
+                }
             }
-        }
-    }
-    for (i, target) in update.chunks_exact_mut(rest_chunks).enumerate() {
-        for (row, &inverse) in rest.chunks_exact(rest_chunks).zip(&*inverse) {
-            let l = row.as_flattened()[i] * inverse;
-            for (target, source) in target.iter_mut().zip(row) {
-                subtract(target, source, l);
-            }
+            *target = row;
         }
     }
     None
+}
+
+/// As [`eliminate`] with any number of chunks.
+fn eliminate_any(square_chunks: usize, rest_chunks: usize, front: Elimination<'_>) -> Option<usize> {
+    let Elimination { square, rest, update, inverse, scale, later: sums } = front;
+    let (w, stride, rest_stride) = (inverse.len(), square_chunks * LANES, rest_chunks * LANES);
+    for k in 0..w {
+        let (row, below) = square[k * stride..].split_at_mut(stride);
+        let Some(reciprocal) = invert(row[k], scale[k]) else {
+            inverse[k] = 1.0 / row[k];
+            return Some(k);
+        };
+        inverse[k] = reciprocal;
+        let (own, below_rest) = rest[k * rest_stride..].split_at_mut(rest_stride);
+        for i in k + 1..w {
+            let l = row[i] * reciprocal;
+            scale[i] += (l * row[i]).abs();
+            let target = &mut below[(i - k - 1) * stride..][..stride];
+            target[i..].iter_mut().zip(&row[i..]).for_each(|(t, s)| *t -= l * s);
+            let target = &mut below_rest[(i - k - 1) * rest_stride..][..rest_stride];
+            target.iter_mut().zip(&*own).for_each(|(t, s)| *t -= l * s);
+            below[(i - k - 1) * stride + k] = l;
+        }
+    }
+    if rest_chunks == 0 {
+        return None;
+    }
+    sums.fill(0.0);
+    for (row, &reciprocal) in rest.chunks_exact(rest_stride).zip(&*inverse) {
+        sums.iter_mut().zip(row).for_each(|(s, u)| *s += (u * u * reciprocal).abs());
+    }
+    for (i, target) in update.chunks_exact_mut(rest_stride).enumerate() {
+        for (row, &reciprocal) in rest.chunks_exact(rest_stride).zip(&*inverse) {
+            let l = row[i] * reciprocal;
+            target.iter_mut().zip(row).for_each(|(t, s)| *t -= l * s);
+        }
+    }
+    None
+}
+
+fn rows<const N: usize>(values: &[f64]) -> &[[Chunk; N]] {
+    values.as_chunks().0.as_chunks().0
+}
+
+fn rows_mut<const N: usize>(values: &mut [f64]) -> &mut [[Chunk; N]] {
+    values.as_chunks_mut().0.as_chunks_mut().0
 }
 
 #[inline(always)]
@@ -362,26 +439,34 @@ fn subtract(target: &mut Chunk, source: &Chunk, factor: f64) {
     }
 }
 
-/// `L⁻¹` of one front; also changes the later positions.
+/// `sums ← sums + |u² / pivot|`.
 #[inline(always)]
-fn forward(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &mut [f64]) {
+fn add_squares(sums: &mut Chunk, u: &Chunk, reciprocal: f64) {
+    for (sum, u) in sums.iter_mut().zip(u) {
+        *sum += (u * u * reciprocal).abs();
+    }
+}
+
+/// `L⁻¹` of one front; also changes the later positions.
+fn forward<const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
     let w = parts.inverse.len();
-    let (local, sums) = parts.local.split_at_mut(square_chunks);
-    let sums = &mut sums[..rest_chunks];
     let own = &mut x[parts.first..parts.first + w];
-    local[square_chunks - 1] = [0.0; LANES];
+    let mut local = [[0.0; LANES]; P];
     local.as_flattened_mut()[..w].copy_from_slice(own);
-    sums.fill([0.0; LANES]);
+    let mut sums = [[0.0; LANES]; R];
+    let square = &rows::<P>(parts.square)[..w];
     for k in 0..w {
-        let z = local.as_flattened()[k];
+        let z = local[k / LANES][k % LANES];
         let t = z * parts.inverse[k];
         own[k] = z;
-        let row = &parts.square[k * square_chunks..][..square_chunks];
-        for (target, source) in local.iter_mut().zip(row).skip(k / LANES) {
-            subtract(target, source, t);
+        for c in 0..P {
+            subtract(&mut local[c], &square[k][c], t);
         }
-        for (sum, source) in sums.iter_mut().zip(&parts.rest[k * rest_chunks..][..rest_chunks]) {
-            subtract(sum, source, t);
+        if R > 0 {
+            let row = &rows::<R>(parts.rest)[k];
+            for c in 0..R {
+                subtract(&mut sums[c], &row[c], t);
+            }
         }
     }
     for (&i, sum) in parts.later.iter().zip(sums.as_flattened()) {
@@ -389,35 +474,72 @@ fn forward(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &mut [
     }
 }
 
-/// `L⁻ᵀ D⁻¹` of one front.
-#[inline(always)]
-fn backward(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &mut [f64]) {
-    let w = parts.inverse.len();
-    let (local, later) = parts.local.split_at_mut(square_chunks);
-    let later = &mut later[..rest_chunks];
-    if let Some(last) = later.last_mut() {
-        *last = [0.0; LANES];
+/// As [`forward`] with any number of chunks.
+fn forward_any(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &mut [f64]) {
+    let (w, stride, rest_stride) = (parts.inverse.len(), square_chunks * LANES, rest_chunks * LANES);
+    let own = &mut x[parts.first..parts.first + w];
+    let sums = &mut parts.local[..rest_stride];
+    sums.fill(0.0);
+    for k in 0..w {
+        let (before, after) = own.split_at_mut(k + 1);
+        let t = before[k] * parts.inverse[k];
+        let row = &parts.square[k * stride + k + 1..k * stride + w];
+        after.iter_mut().zip(row).for_each(|(x, u)| *x -= t * u);
+        let row = &parts.rest[k * rest_stride..][..rest_stride];
+        sums.iter_mut().zip(row).for_each(|(sum, u)| *sum -= t * u);
     }
+    for (&i, sum) in parts.later.iter().zip(sums) {
+        x[i as usize] += *sum;
+    }
+}
+
+/// `L⁻ᵀ D⁻¹` of one front.
+fn backward<const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
+    let w = parts.inverse.len();
+    let mut later = [[0.0; LANES]; R];
     for (value, &i) in later.as_flattened_mut().iter_mut().zip(parts.later) {
         *value = x[i as usize];
     }
     let own = &mut x[parts.first..parts.first + w];
+    let mut local = [[0.0; LANES]; P];
     for k in 0..w {
         let mut sums = [0.0; LANES];
-        for (row, value) in parts.rest[k * rest_chunks..][..rest_chunks].iter().zip(&*later) {
-            for lane in 0..LANES {
-                sums[lane] += row[lane] * value[lane];
+        if R > 0 {
+            let row = &rows::<R>(parts.rest)[k];
+            for c in 0..R {
+                for lane in 0..LANES {
+                    sums[lane] += row[c][lane] * later[c][lane];
+                }
             }
         }
         let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        local.as_flattened_mut()[k] = (own[k] - sum) * parts.inverse[k];
+        local[k / LANES][k % LANES] = (own[k] - sum) * parts.inverse[k];
+    }
+    let square = &rows::<P>(parts.square)[..w];
+    for i in (0..w).rev() {
+        let value = local[i / LANES][i % LANES];
+        own[i] = value;
+        for c in 0..P {
+            subtract(&mut local[c], &square[i][c], value);
+        }
+    }
+}
+
+/// As [`backward`] with any number of chunks.
+fn backward_any(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &mut [f64]) {
+    let (w, stride, rest_stride) = (parts.inverse.len(), square_chunks * LANES, rest_chunks * LANES);
+    let later = &mut parts.local[..parts.later.len()];
+    for (value, &i) in later.iter_mut().zip(parts.later) {
+        *value = x[i as usize];
+    }
+    let own = &mut x[parts.first..parts.first + w];
+    for k in 0..w {
+        let row = &parts.rest[k * rest_stride..][..rest_stride];
+        own[k] = (own[k] - dot(&row[..later.len()], later)) * parts.inverse[k];
     }
     for i in (0..w).rev() {
-        let value = local.as_flattened()[i];
-        own[i] = value;
-        let row = &parts.square[i * square_chunks..][..square_chunks];
-        for (target, source) in local.iter_mut().zip(row).take(i / LANES + 1) {
-            subtract(target, source, value);
-        }
+        let (before, from) = own.split_at_mut(i);
+        let row = &parts.square[i * stride..i * stride + i];
+        before.iter_mut().zip(row).for_each(|(x, l)| *x -= from[0] * l);
     }
 }

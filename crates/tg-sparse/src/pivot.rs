@@ -13,6 +13,9 @@ pub(crate) const PIVOT_LOST: f64 = 1e-13;
 /// where earlier pivots were lossy too; the caller has to probe it.
 pub(crate) const PIVOT_DOUBTFUL: f64 = 1e-8;
 
+/// A pivot below this share of `s_i` is not trusted where solutions are not checked: some ten digits are to be left.
+pub(crate) const PIVOT_WEAK: f64 = 1e-6;
+
 /// What to do with small pivots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum PivotRule<'a> {

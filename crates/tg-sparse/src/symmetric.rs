@@ -60,7 +60,7 @@ impl SymmetricSystem {
     /// Factors with these values of A, one for each entry of the pattern's Jacobian.
     ///
     /// # Errors
-    /// [`SparseError::Pivot`] for a pivot that is not finite or has lost half of its digits: M is singular, A close to
+    /// [`SparseError::Pivot`] for a pivot that is not finite or has lost six of its digits: M is singular, A close to
     /// rank deficient. [`SaddleSystem`](crate::SaddleSystem) may still solve it.
     ///
     /// # Panics
