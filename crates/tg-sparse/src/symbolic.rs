@@ -195,7 +195,7 @@ fn cost(w: usize, r: usize) -> f64 {
     COST_FRONT + COST_PANEL * width * (width + 2.0 * rest) + COST_UPDATE * rest * rest + multiplications(w, r)
 }
 
-const COST_FRONT: f64 = 150.0;
+const COST_FRONT: f64 = 30.0;
 const COST_PANEL: f64 = 2.0;
 const COST_UPDATE: f64 = 3.0;
 
