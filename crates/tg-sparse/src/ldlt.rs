@@ -30,9 +30,8 @@ struct Shape {
     rest_chunks: usize,
     /// Offset of the square block in the panels; the rest follows it.
     panel: usize,
-    /// Offset of the update matrix in its stack.
+    /// Offset of the update matrix.
     update: usize,
-    even: bool,
 }
 
 impl Shape {
@@ -53,22 +52,23 @@ impl Shape {
 #[derive(Clone, Debug)]
 pub(crate) struct LdltLayout {
     shapes: Vec<Shape>,
+    /// The fronts by their height above the leaves: neighbours do not wait for each other, and the processor works on
+    /// several at a time.
+    sequence: Vec<u32>,
     panel_len: usize,
-    stack_len: [usize; 2],
+    update_len: usize,
     longest: usize,
 }
 
 impl LdltLayout {
     pub(crate) fn new(symbolic: &Symbolic) -> Self {
         let mut shapes: Vec<Shape> = Vec::with_capacity(symbolic.fronts.len());
-        let (mut panel_len, mut stack_len, mut top, mut longest) = (0, [0; 2], [0; 2], 0);
-        for front in &symbolic.fronts {
-            for &child in &symbolic.children[front.children.clone()] {
-                let child = &shapes[child as usize];
-                top[usize::from(child.even)] -= child.update_len();
-            }
+        let (mut panel_len, mut update_len, mut longest) = (0, 0, 0);
+        let mut height = vec![0_u32; symbolic.fronts.len()];
+        for (at, front) in symbolic.fronts.iter().enumerate() {
+            let children = symbolic.children[front.children.clone()].iter();
+            height[at] = children.map(|&child| height[child as usize] + 1).max().unwrap_or(0);
             let (width, rest) = (front.width, front.rest_len());
-            let stack = usize::from(front.even);
             let shape = Shape {
                 first: front.first,
                 width,
@@ -76,16 +76,16 @@ impl LdltLayout {
                 square_chunks: chunks(width),
                 rest_chunks: chunks(rest),
                 panel: panel_len,
-                update: top[stack],
-                even: front.even,
+                update: update_len,
             };
             panel_len += shape.panel_len();
-            top[stack] += shape.update_len();
-            stack_len[stack] = top[stack].max(stack_len[stack]);
+            update_len += shape.update_len();
             longest = longest.max((shape.square_chunks + shape.rest_chunks) * LANES);
             shapes.push(shape);
         }
-        Self { shapes, panel_len, stack_len, longest }
+        let mut sequence: Vec<u32> = (0..shapes.len() as u32).collect();
+        sequence.sort_by_key(|&front| height[front as usize]);
+        Self { shapes, sequence, panel_len, update_len, longest }
     }
 
     /// Length of the panels.
@@ -134,8 +134,8 @@ pub(crate) struct Ldlt {
     inverse: Vec<f64>,
     /// Sum of magnitudes that went into each pivot.
     scale: Vec<f64>,
-    /// Update matrices: odd depths, even depths.
-    stacks: [Vec<f64>; 2],
+    /// Update matrices.
+    updates: Vec<f64>,
     /// One front's part of a vector.
     local: Vec<f64>,
 }
@@ -147,7 +147,7 @@ impl Ldlt {
             panels: vec![0.0; layout.panel_len + 1],
             inverse: vec![0.0; size],
             scale: vec![0.0; size],
-            stacks: layout.stack_len.map(|length| vec![0.0; length]),
+            updates: vec![0.0; layout.update_len],
             local: vec![0.0; layout.longest],
         }
     }
@@ -161,12 +161,13 @@ impl Ldlt {
     /// Factors what stands in the panels.
     pub(crate) fn factor(&mut self, symbolic: &Symbolic, layout: &LdltLayout) -> Result<(), PivotTrouble> {
         self.scale.fill(0.0);
-        let [odd, even] = &mut self.stacks;
-        for (shape, front) in layout.shapes.iter().zip(&symbolic.fronts) {
+        for &at in &layout.sequence {
+            let (shape, front) = (&layout.shapes[at as usize], &symbolic.fronts[at as usize]);
             let panel = &mut self.panels[shape.panel..shape.panel + shape.panel_len()];
             let (square, rest) = panel.split_at_mut(shape.square_len());
-            let (own, below) = if shape.even { (&mut *even, &*odd) } else { (&mut *odd, &*even) };
-            let update = &mut own[shape.update..shape.update + shape.update_len()];
+            // Children come before their parents, also in memory.
+            let (below, own) = self.updates.split_at_mut(shape.update);
+            let update = &mut own[..shape.update_len()];
             update.fill(0.0);
             for row in 0..shape.width {
                 self.scale[shape.first + row] += square[row * (shape.square_chunks * LANES + 1)].abs();
@@ -213,7 +214,8 @@ impl Ldlt {
 
     /// `x ← L⁻ᵀ D⁻¹ L⁻¹ x` in elimination order.
     pub(crate) fn solve(&mut self, symbolic: &Symbolic, layout: &LdltLayout, x: &mut [f64]) {
-        for (shape, front) in layout.shapes.iter().zip(&symbolic.fronts) {
+        for &at in &layout.sequence {
+            let (shape, front) = (&layout.shapes[at as usize], &symbolic.fronts[at as usize]);
             let parts = self.parts(symbolic, shape, front);
             match (shape.square_chunks, shape.rest_chunks) {
                 (1, 0) => forward::<1, 0>(parts, x),
@@ -227,7 +229,8 @@ impl Ldlt {
                 (p, r) => forward_any(p, r, parts, x),
             }
         }
-        for (shape, front) in layout.shapes.iter().zip(&symbolic.fronts).rev() {
+        for &at in layout.sequence.iter().rev() {
+            let (shape, front) = (&layout.shapes[at as usize], &symbolic.fronts[at as usize]);
             let parts = self.parts(symbolic, shape, front);
             match (shape.square_chunks, shape.rest_chunks) {
                 (1, 0) => backward::<1, 0>(parts, x),
