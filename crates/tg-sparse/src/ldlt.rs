@@ -126,6 +126,26 @@ impl Shape {
     }
 }
 
+/// Calls a function with width, chunks of the square block and chunks of the rest as constants, which unrolls its loops, for
+/// the fronts of one or two bars with their node in the plane or in space, or one that takes any sizes.
+macro_rules! sized {
+    ($shape:expr, $function:ident($($argument:expr),*), $any:ident) => {
+        match ($shape.width, $shape.rest_chunks) {
+            (3, 0) => $function::<3, 1, 0>($($argument),*),
+            (3, 1) => $function::<3, 1, 1>($($argument),*),
+            (3, 2) => $function::<3, 1, 2>($($argument),*),
+            (4, 0) => $function::<4, 1, 0>($($argument),*),
+            (4, 1) => $function::<4, 1, 1>($($argument),*),
+            (4, 2) => $function::<4, 1, 2>($($argument),*),
+            (6, 0) => $function::<6, 2, 0>($($argument),*),
+            (6, 1) => $function::<6, 2, 1>($($argument),*),
+            (8, 0) => $function::<8, 2, 0>($($argument),*),
+            (8, 1) => $function::<8, 2, 1>($($argument),*),
+            (_, rest_chunks) => $any($shape.square_chunks, rest_chunks, $($argument),*),
+        }
+    };
+}
+
 /// Factors and buffers.
 #[derive(Clone, Debug)]
 pub(crate) struct Ldlt {
@@ -187,18 +207,7 @@ impl Ldlt {
                 scale: &mut self.scale[own],
                 later: &mut self.local[..shape.rest_chunks * LANES],
             };
-            // The sizes as constants keep the rows in registers.
-            let failed = match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => eliminate::<1, 0>(elimination),
-                (1, 1) => eliminate::<1, 1>(elimination),
-                (1, 2) => eliminate::<1, 2>(elimination),
-                (2, 0) => eliminate::<2, 0>(elimination),
-                (2, 1) => eliminate::<2, 1>(elimination),
-                (2, 2) => eliminate::<2, 2>(elimination),
-                (3, 0) => eliminate::<3, 0>(elimination),
-                (3, 1) => eliminate::<3, 1>(elimination),
-                (p, r) => eliminate_any(p, r, elimination),
-            };
+            let failed = sized!(shape, eliminate(elimination), eliminate_any);
             if let Some(row) = failed {
                 let position = shape.first + row;
                 let (pivot, scale) = (1.0 / self.inverse[position], self.scale[position]);
@@ -217,32 +226,12 @@ impl Ldlt {
         for &at in &layout.sequence {
             let (shape, front) = (&layout.shapes[at as usize], &symbolic.fronts[at as usize]);
             let parts = self.parts(symbolic, shape, front);
-            match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => forward::<1, 0>(parts, x),
-                (1, 1) => forward::<1, 1>(parts, x),
-                (1, 2) => forward::<1, 2>(parts, x),
-                (2, 0) => forward::<2, 0>(parts, x),
-                (2, 1) => forward::<2, 1>(parts, x),
-                (2, 2) => forward::<2, 2>(parts, x),
-                (3, 0) => forward::<3, 0>(parts, x),
-                (3, 1) => forward::<3, 1>(parts, x),
-                (p, r) => forward_any(p, r, parts, x),
-            }
+            sized!(shape, forward(parts, x), forward_any);
         }
         for &at in layout.sequence.iter().rev() {
             let (shape, front) = (&layout.shapes[at as usize], &symbolic.fronts[at as usize]);
             let parts = self.parts(symbolic, shape, front);
-            match (shape.square_chunks, shape.rest_chunks) {
-                (1, 0) => backward::<1, 0>(parts, x),
-                (1, 1) => backward::<1, 1>(parts, x),
-                (1, 2) => backward::<1, 2>(parts, x),
-                (2, 0) => backward::<2, 0>(parts, x),
-                (2, 1) => backward::<2, 1>(parts, x),
-                (2, 2) => backward::<2, 2>(parts, x),
-                (3, 0) => backward::<3, 0>(parts, x),
-                (3, 1) => backward::<3, 1>(parts, x),
-                (p, r) => backward_any(p, r, parts, x),
-            }
+            sized!(shape, backward(parts, x), backward_any);
         }
     }
 
@@ -324,17 +313,18 @@ fn invert(pivot: f64, scale: f64) -> Option<f64> {
     (pivot.abs() > PIVOT_WEAK * scale && pivot.is_finite()).then(|| 1.0 / pivot)
 }
 
-/// Eliminates a front whose rows have P and R chunks. The row of a pivot that is lost.
-fn eliminate<const P: usize, const R: usize>(front: Elimination<'_>) -> Option<usize> {
+/// Eliminates a front of width W whose rows have P and R chunks. The row of a pivot that is lost.
+fn eliminate<const W: usize, const P: usize, const R: usize>(front: Elimination<'_>) -> Option<usize> {
     let Elimination { square, rest, update, inverse, scale, later: sums } = front;
-    let w = inverse.len();
-    let square = &mut rows_mut::<P>(square)[..w];
+    let inverse = &mut inverse[..W];
+    let scale = &mut scale[..W];
+    let square = &mut rows_mut::<P>(square)[..W];
     let mut magnitude = [[0.0; LANES]; P];
-    magnitude.as_flattened_mut()[..w].copy_from_slice(scale);
+    magnitude.as_flattened_mut()[..W].copy_from_slice(scale);
     let mut later = [[0.0; LANES]; R];
     // Without rest there are no such rows.
-    let rest = if R == 0 { &mut [][..] } else { &mut rows_mut::<R>(rest)[..w] };
-    for k in 0..w {
+    let rest = if R == 0 { &mut [][..] } else { &mut rows_mut::<R>(rest)[..W] };
+    for k in 0..W {
         let row = square[k];
         let Some(reciprocal) = invert(row[k / LANES][k % LANES], magnitude[k / LANES][k % LANES]) else {
             inverse[k] = 1.0 / row[k / LANES][k % LANES];
@@ -346,7 +336,7 @@ fn eliminate<const P: usize, const R: usize>(front: Elimination<'_>) -> Option<u
             add_squares(&mut magnitude[c], &row[c], reciprocal);
         }
         let flat = row.as_flattened();
-        for i in k + 1..w {
+        for i in k + 1..W {
             let l = flat[i] * reciprocal;
             for c in 0..P {
                 subtract(&mut square[i][c], &row[c], l);
@@ -357,7 +347,7 @@ fn eliminate<const P: usize, const R: usize>(front: Elimination<'_>) -> Option<u
             for c in 0..R {
                 add_squares(&mut later[c], &own[c], reciprocal);
             }
-            for i in k + 1..w {
+            for i in k + 1..W {
                 let l = flat[i] * reciprocal;
                 for c in 0..R {
                     subtract(&mut rest[i][c], &own[c], l);
@@ -366,10 +356,10 @@ fn eliminate<const P: usize, const R: usize>(front: Elimination<'_>) -> Option<u
         }
     }
     // Whole rows were subtracted: what stands below the diagonal is to be written only now.
-    for k in 0..w {
+    for k in 0..W {
         let (row, reciprocal) = (square[k], inverse[k]);
         let flat = row.as_flattened();
-        for i in k + 1..w {
+        for i in k + 1..W {
             square[i][k / LANES][k % LANES] = flat[i] * reciprocal;
         }
     }
@@ -451,16 +441,16 @@ fn add_squares(sums: &mut Chunk, u: &Chunk, reciprocal: f64) {
 }
 
 /// `L⁻¹` of one front; also changes the later positions.
-fn forward<const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
-    let w = parts.inverse.len();
-    let own = &mut x[parts.first..parts.first + w];
+fn forward<const W: usize, const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
+    let inverse = &parts.inverse[..W];
+    let own = &mut x[parts.first..parts.first + W];
     let mut local = [[0.0; LANES]; P];
-    local.as_flattened_mut()[..w].copy_from_slice(own);
+    local.as_flattened_mut()[..W].copy_from_slice(own);
     let mut sums = [[0.0; LANES]; R];
-    let square = &rows::<P>(parts.square)[..w];
-    for k in 0..w {
+    let square = &rows::<P>(parts.square)[..W];
+    for k in 0..W {
         let z = local[k / LANES][k % LANES];
-        let t = z * parts.inverse[k];
+        let t = z * inverse[k];
         own[k] = z;
         for c in 0..P {
             subtract(&mut local[c], &square[k][c], t);
@@ -497,15 +487,15 @@ fn forward_any(square_chunks: usize, rest_chunks: usize, parts: Parts<'_>, x: &m
 }
 
 /// `L⁻ᵀ D⁻¹` of one front.
-fn backward<const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
-    let w = parts.inverse.len();
+fn backward<const W: usize, const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
+    let inverse = &parts.inverse[..W];
     let mut later = [[0.0; LANES]; R];
     for (value, &i) in later.as_flattened_mut().iter_mut().zip(parts.later) {
         *value = x[i as usize];
     }
-    let own = &mut x[parts.first..parts.first + w];
+    let own = &mut x[parts.first..parts.first + W];
     let mut local = [[0.0; LANES]; P];
-    for k in 0..w {
+    for k in 0..W {
         let mut sums = [0.0; LANES];
         if R > 0 {
             let row = &rows::<R>(parts.rest)[k];
@@ -516,10 +506,10 @@ fn backward<const P: usize, const R: usize>(parts: Parts<'_>, x: &mut [f64]) {
             }
         }
         let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-        local[k / LANES][k % LANES] = (own[k] - sum) * parts.inverse[k];
+        local[k / LANES][k % LANES] = (own[k] - sum) * inverse[k];
     }
-    let square = &rows::<P>(parts.square)[..w];
-    for i in (0..w).rev() {
+    let square = &rows::<P>(parts.square)[..W];
+    for i in (0..W).rev() {
         let value = local[i / LANES][i % LANES];
         own[i] = value;
         for c in 0..P {
