@@ -39,10 +39,7 @@ fn stepping<const D: usize>(c: &mut Criterion, name: &str, size: &str, model: &M
                 Ok::<_, StepError>(report)
             });
         });
-        println!(
-            "{name}, {scheme}, {size}: {:.2} iterations a step",
-            iterations as f64 / steps as f64
-        );
+        println!("{name}, {scheme}, {size}: {:.2} iterations a step", iterations as f64 / steps as f64);
     }
     group.finish();
 }

@@ -134,7 +134,11 @@ impl<'m> Leapfrog<'m> {
             }
             self.rhs[..self.unknowns].fill(0.0);
         }
-        Err(Failed { failure: Failure::NotConverged, iterations: self.options.max_iterations, residual: before })
+        Err(Failed {
+            failure: Failure::NotConverged,
+            iterations: self.options.max_iterations,
+            residual: before,
+        })
     }
 
     /// q_{k+1} and -Φ there into the lower rows; the largest scaled one, NaN if any is.

@@ -27,9 +27,10 @@
 //! | (49), (53), (54), (55), Algorithm 1 | the modified symplectic scheme | [`Symplectic`] |
 //! | \[38\] | generalised-α for constrained systems (Arnold, Brüls) | [`GeneralizedAlpha`] |
 //! | | its symmetric compositions of order 4 and 6 (Suzuki; Kahan, Li) | [`Composition`] |
+//! | (38) | leapfrog with exact constraints (RATTLE) | [`Leapfrog`] |
 //! | (38), differentiated twice | explicit pairs of order 5(4) and 8(5,3) (Dormand, Prince) | [`RungeKutta`] |
 //!
-//! Which one: [`RungeKutta`] under error control where cables are neither stiff nor hard damped for the step that the motion
+//! Which one: [`Leapfrog`] for a draft, or [`RungeKutta`] under error control where cables are neither stiff nor hard damped for the step that the motion
 //! asks for; [`Symplectic`] where they are, or where energy must not drift over very many periods; [`Composition`] for the
 //! latter with few digits lost. Half a second of a guyed mast of eight stages:
 //!

@@ -188,17 +188,30 @@ impl<'m> Symplectic<'m> {
                 slowest = slowest.max(fell);
             }
             // One more correction, whose residual need not be looked at.
-            let last_one = has_factors && iterations > 0 && fell < SLOW && slowest * residual <= POLISHED * self.options.tolerance;
+            let last_one = has_factors
+                && iterations > 0
+                && fell < SLOW
+                && slowest * residual <= POLISHED * self.options.tolerance;
             if last_one {
                 iterations += 1;
-                self.system.apply().map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
+                self.system
+                    .apply()
+                    .map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
                 self.correct();
                 residual *= slowest;
             }
             // Rounding ends the descent at some residual below the tolerance.
             let stands = residual <= self.options.tolerance && fell > SLOW;
-            if last_one || stands || residual <= POLISHED * self.options.tolerance || correction <= resolution {
-                return self.accept(state, h, frozen, last, Converged { iterations, residual, frozen, forced: 0 }, scale);
+            if last_one || stands || residual <= POLISHED * self.options.tolerance || correction <= resolution
+            {
+                return self.accept(
+                    state,
+                    h,
+                    frozen,
+                    last,
+                    Converged { iterations, residual, frozen, forced: 0 },
+                    scale,
+                );
             }
             if iterations == self.options.max_iterations {
                 return Err(self.failed(Failure::NotConverged, iterations, scale));
@@ -352,11 +365,11 @@ impl<'m> Symplectic<'m> {
             let full = coordinate..coordinate + len;
             let rows = system.rhs[unknown..unknown + len].iter_mut().zip(&w.p[unknown..]);
             let terms = w.inertial[full.clone()].iter().zip(&w.force[full.clone()]);
-            for (((r, p), (inertial, force)), reaction) in
-                rows.zip(terms).zip(&system.constraint_force[full])
+            for (((r, p), (inertial, force)), reaction) in rows.zip(terms).zip(&system.constraint_force[full])
             {
                 let (momentum, force) = (h * p, half * force);
-                let term = larger(larger(inertial.abs(), momentum.abs()), larger(force.abs(), reaction.abs()));
+                let term =
+                    larger(larger(inertial.abs(), momentum.abs()), larger(force.abs(), reaction.abs()));
                 scale = larger(scale, term);
                 *r = inertial - momentum - force - reaction;
             }

@@ -235,7 +235,6 @@ impl Worst {
     fn or(self, residual: f64, row: usize) -> Self {
         if residual <= self.residual || self.residual.is_nan() { self } else { Self { residual, row } }
     }
-
 }
 
 /// The larger number, in one instruction; `f64::max` also looks for NaN.

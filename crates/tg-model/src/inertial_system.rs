@@ -104,9 +104,7 @@ impl<'m> InertialSystem<'m> {
     /// The matrix is singular.
     pub fn solve(&mut self, rhs: &mut [f64]) -> Result<bool, SparseError> {
         match &mut self.robust {
-            Some(robust) if self.is_robust => {
-                robust.solve(rhs).map(|_| true)
-            }
+            Some(robust) if self.is_robust => robust.solve(rhs).map(|_| true),
             _ => {
                 self.system.solve(rhs);
                 Ok(false)

@@ -31,9 +31,9 @@ impl Jacobian {
         for &(row, end) in &self.runs {
             let entries = start..end as usize;
             let terms = self.columns[entries.clone()].iter().zip(&values[entries]);
-            let (sum, size) = terms.map(|(&column, a)| a * x[column as usize]).fold((0.0, 0.0), |(sum, size), term| {
-                (sum + term, size + f64::abs(term))
-            });
+            let (sum, size) = terms
+                .map(|(&column, a)| a * x[column as usize])
+                .fold((0.0, 0.0), |(sum, size), term| (sum + term, size + f64::abs(term)));
             out[row as usize] += sum;
             // Faster than `f64::max`, which looks for NaN.
             largest = if size > largest { size } else { largest };

@@ -1,6 +1,9 @@
 //! The schemes that are measured: one entry each.
 
-use tg_integrate::{GeneralizedAlpha, NewtonOptions, StartError, State, Stepper, Symplectic};
+use tg_integrate::{
+    EmbeddedPair, GeneralizedAlpha, Leapfrog, NewtonOptions, RungeKutta, StartError, State, Stepper,
+    Symplectic, Tolerances,
+};
 use tg_model::Mechanics;
 
 use super::scene::Scene;
@@ -15,7 +18,6 @@ pub(crate) enum Dial {
     /// Steps within a sample.
     Steps(u32),
     /// Tolerance of a scheme that chooses its own steps.
-    #[allow(dead_code, reason = "for schemes that choose their steps")]
     Tolerance(f64),
 }
 
@@ -48,6 +50,16 @@ const STEPS: &[Dial] = &[
     Dial::Steps(80),
 ];
 
+/// Tolerances from coarse to fine.
+const TOLERANCES: &[Dial] = &[
+    Dial::Tolerance(1e-2),
+    Dial::Tolerance(1e-3),
+    Dial::Tolerance(1e-4),
+    Dial::Tolerance(1e-5),
+    Dial::Tolerance(1e-6),
+    Dial::Tolerance(1e-8),
+];
+
 /// A scheme with its settings.
 pub(crate) struct Scheme {
     pub(crate) name: &'static str,
@@ -61,7 +73,7 @@ pub(crate) struct Scheme {
 type Make = for<'m> fn(&'m dyn Mechanics, Dial) -> Result<Box<dyn Stepper + 'm>, StartError>;
 
 /// All schemes.
-pub(crate) const SCHEMES: [Scheme; 3] = [
+pub(crate) const SCHEMES: [Scheme; 6] = [
     Scheme {
         name: "symplectic",
         dials: STEPS,
@@ -83,7 +95,37 @@ pub(crate) const SCHEMES: [Scheme; 3] = [
         floor: None,
         make: |mechanics, _| Ok(Box::new(GeneralizedAlpha::new(mechanics, 0.7, NewtonOptions::default())?)),
     },
+    Scheme {
+        name: "leapfrog",
+        dials: STEPS,
+        floor: Some("shake, 2 iterations"),
+        make: |mechanics, _| Ok(Box::new(Leapfrog::new(mechanics, NewtonOptions::default())?)),
+    },
+    Scheme {
+        name: "Dormand–Prince 5",
+        dials: TOLERANCES,
+        floor: Some("exp, RK4"),
+        make: |mechanics, dial| explicit(mechanics, dial, EmbeddedPair::DormandPrince5),
+    },
+    Scheme {
+        name: "Dormand–Prince 8",
+        dials: TOLERANCES,
+        floor: None,
+        make: |mechanics, dial| explicit(mechanics, dial, EmbeddedPair::DormandPrince8),
+    },
 ];
+
+/// With fixed steps or under error control.
+fn explicit<'m>(
+    mechanics: &'m dyn Mechanics,
+    dial: Dial,
+    pair: EmbeddedPair,
+) -> Result<Box<dyn Stepper + 'm>, StartError> {
+    Ok(Box::new(match dial {
+        Dial::Steps(_) => RungeKutta::fixed(mechanics, pair)?,
+        Dial::Tolerance(tolerance) => RungeKutta::new(mechanics, pair, Tolerances::relative(tolerance))?,
+    }))
+}
 
 impl Scheme {
     /// A stepper and its first state.

@@ -4,7 +4,9 @@ use crate::support::prism::{self, prisms};
 use crate::support::tower::{self, tower};
 use crate::support::{alpha, composition, example1, explicit, fixed, start, symplectic};
 use allocation_counter::measure;
-use tg_integrate::{CompositionScheme, EmbeddedPair, Run, State, StepReport, Stepper, Summary};
+use tg_integrate::{
+    CompositionScheme, EmbeddedPair, Leapfrog, NewtonOptions, Run, State, StepReport, Stepper, Summary,
+};
 use tg_model::Model;
 
 /// Allocations of `steps` steps after the first, with the totals of the reports.
@@ -65,6 +67,7 @@ fn explicit_and_composed_steps_allocate_nothing() {
         steppers.push(Box::new(fixed(&model, pair)));
     }
     steppers.push(Box::new(composition(&model, CompositionScheme::Suzuki4)));
+    steppers.push(Box::new(Leapfrog::new(&model, NewtonOptions::default()).unwrap()));
     let mut located = 0;
     for (k, stepper) in steppers.iter_mut().enumerate() {
         let mut state = start(&model, stepper.as_mut());

@@ -12,6 +12,7 @@ mod failure;
 mod fallback;
 mod generalized_alpha;
 mod invariance;
+mod leapfrog;
 mod mast;
 mod order;
 mod projection;

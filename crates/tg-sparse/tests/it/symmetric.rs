@@ -44,7 +44,10 @@ fn chains_and_rings() {
         for bodies in [1, 2, 3, 5, 12] {
             for cables in [0, 1, 3] {
                 let difference = difference(chain(bodies, cables, closed, 4), 2);
-                assert!(difference < 1e-12, "{bodies} bodies, {cables} cables, closed {closed}: {difference:e}");
+                assert!(
+                    difference < 1e-12,
+                    "{bodies} bodies, {cables} cables, closed {closed}: {difference:e}"
+                );
             }
         }
     }
