@@ -90,7 +90,7 @@ impl Inertia {
 /// Whether entries sorted by rows are a pattern ⊗ I_d.
 fn is_product(n: usize, sorted: &[Entry], d: usize) -> bool {
     let mut rows = sorted.chunk_by(|a, b| a.row == b.row);
-    if n % d != 0 {
+    if !n.is_multiple_of(d) {
         return false;
     }
     while let Some(first) = rows.next() {

@@ -26,6 +26,8 @@ const MAX_ITERATIONS: u32 = 30;
 /// Share of its terms that A q̇ may keep: some roundings. A solve that leaves more is repeated for the rest, then made
 /// with every check.
 const RATE_LEFT: f64 = 1e-13;
+/// Share that is accepted after that.
+const RATE_ACCEPTED: f64 = 1e-11;
 
 /// By how much a projection moved a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +78,8 @@ pub struct Projector<'m> {
     unknowns: usize,
     phi: Vec<f64>,
     rhs: Vec<f64>,
+    /// The first solution while it is refined.
+    first: Vec<f64>,
 }
 
 impl<'m> Projector<'m> {
@@ -95,6 +99,7 @@ impl<'m> Projector<'m> {
             unknowns: system.layout().unknowns(),
             phi: vec![0.0; sizes.constraints],
             rhs: vec![0.0; system.size()],
+            first: vec![0.0; system.size()],
             system,
             mechanics,
         })
@@ -270,22 +275,34 @@ impl<'m> Projector<'m> {
         self.refine(x, rates)
     }
 
-    /// Once more for what a solve without checks left, with every check.
+    /// Once more for what a solve without checks left, by the same factors, then by factors with every check.
     #[cold]
     fn refine(&mut self, x: &mut [f64], rates: Option<&[f64]>) -> Result<f64, ProjectionError> {
-        let result = self.system.factor_robustly();
-        self.named(result)?;
-        let (n, first) = (self.unknowns, self.rhs.clone());
-        self.rhs[..n].fill(0.0);
-        for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
-            *rhs = -rate;
+        let n = self.unknowns;
+        self.first.copy_from_slice(&self.rhs);
+        let mut left = f64::INFINITY;
+        for robust in [false, true] {
+            if robust {
+                let result = self.system.factor_robustly();
+                self.named(result)?;
+            }
+            self.rhs[..n].fill(0.0);
+            for (rhs, rate) in self.rhs[n..].iter_mut().zip(&self.phi) {
+                *rhs = -rate;
+            }
+            self.solve()?;
+            for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
+                x[i] += delta;
+            }
+            self.first.iter_mut().zip(&self.rhs).for_each(|(sum, x)| *sum += x);
+            let size;
+            (left, size) = self.rate_left(x, rates);
+            if left <= RATE_ACCEPTED * size {
+                break;
+            }
         }
-        self.solve()?;
-        for (&i, delta) in self.mechanics.free().iter().zip(&self.rhs) {
-            x[i] += delta;
-        }
-        self.rhs.iter_mut().zip(&first).for_each(|(x, first)| *x += first);
-        Ok(self.rate_left(x, rates).0)
+        self.rhs.copy_from_slice(&self.first);
+        Ok(left)
     }
 
     /// A x + rates into `phi`: the largest of them, and the largest sum of the magnitudes of its terms.
