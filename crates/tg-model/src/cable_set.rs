@@ -78,6 +78,7 @@ impl<L: Law, F: Forms> CableSet<L, F> {
         L::damped(&self.laws)
     }
 
+    #[inline(always)]
     fn line<const D: usize>(&self, i: usize, at: At<'_>, with_velocity: bool) -> Line<D> {
         let l = self.forms.eval::<D>(i, at.q);
         let length = l.norm();
@@ -90,6 +91,7 @@ impl<L: Law, F: Forms> CableSet<L, F> {
         }
     }
 
+    #[inline(always)]
     fn tension<const D: usize>(&self, i: usize, line: &Line<D>, at: At<'_>) -> Tension {
         self.laws[i].tension(line.length, line.rate, at.u[self.input[i] as usize], self.taut(i, at))
     }
@@ -100,17 +102,13 @@ impl<L: Law, F: Forms> CableSet<L, F> {
         at.taut.map(|flags| flags.get(self.switch[i] as usize).copied().unwrap_or(true))
     }
 
-    /// As [`CableSet::line`] and the tension's direction, with a single division.
     pub(crate) fn force<const D: usize>(&self, at: At<'_>, f: &mut [f64]) {
         let damped = self.damped();
-        for (i, law) in self.laws.iter().enumerate() {
-            let l = self.forms.eval::<D>(i, at.q);
-            let length = l.dot(&l).sqrt();
-            let reciprocal = 1.0 / length;
-            let rate = if damped { l.dot(&self.forms.eval::<D>(i, at.v)) * reciprocal } else { 0.0 };
-            let tension = law.tension(length, rate, at.u[self.input[i] as usize], self.taut(i, at)).force;
+        for i in 0..self.laws.len() {
+            let line = self.line::<D>(i, at, damped);
+            let tension = self.tension(i, &line, at).force;
             if tension != 0.0 {
-                self.forms.spread(i, &(l * (-tension * reciprocal)), f);
+                self.forms.spread(i, &(line.direction * -tension), f);
             }
         }
     }
