@@ -14,7 +14,7 @@
 //! any projection the error is 30 to 1000 times larger and the time the same; accelerations found once more behind the
 //! projection change no digit and cost a sixth.
 
-use tg_model::{At, Inertia, InertialSystem, Jacobian, Layout, Mechanics, ProjectionError, Run};
+use tg_model::{At, Inertia, InertialSystem, Jacobian, Mechanics, ProjectionError, Run};
 use tg_sparse::SparseError;
 
 use crate::check::ASSEMBLED;
@@ -59,10 +59,8 @@ impl<'m> IndexOne<'m> {
     /// The pattern cannot be analysed.
     pub(crate) fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
         let sizes = mechanics.sizes();
-        let system = InertialSystem::new(mechanics).map_err(|source| ProjectionError::Solver {
-            culprit: Layout::new(mechanics).name(mechanics, &source),
-            source,
-        })?;
+        let system =
+            InertialSystem::new(mechanics).map_err(|source| ProjectionError::solver(mechanics, source))?;
         let layout = system.layout();
         let entries = mechanics.jacobian_pattern().iter().enumerate();
         let prescribed = entries
@@ -257,7 +255,7 @@ impl<'m> IndexOne<'m> {
 
     /// A solver's error at the start.
     pub(crate) fn projection_error(&self, source: SparseError) -> ProjectionError {
-        ProjectionError::Solver { culprit: self.system.layout().name(self.mechanics, &source), source }
+        ProjectionError::solver(self.mechanics, source)
     }
 
     /// A solver's error in words.

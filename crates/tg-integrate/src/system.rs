@@ -65,9 +65,8 @@ impl<'m> NewtonSystem<'m> {
         let curved: Vec<_> = curvature.iter().map(|e| (e.row, e.col)).collect();
         let groups: [&[(usize, usize)]; 4] =
             [&mass, mechanics.stiffness_pattern(), mechanics.damping_pattern(), &curved];
-        let pattern = layout
-            .saddle(mechanics, &groups)
-            .map_err(|source| ProjectionError::Solver { culprit: layout.name(mechanics, &source), source })?;
+        let pattern =
+            layout.saddle(mechanics, &groups).map_err(|source| ProjectionError::solver(mechanics, source))?;
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
             jacobian: Jacobian::new(mechanics),

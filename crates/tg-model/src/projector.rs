@@ -69,6 +69,13 @@ pub enum ProjectionError {
     },
 }
 
+impl ProjectionError {
+    /// A solver's error, with the user's name of its equation.
+    pub fn solver(mechanics: &dyn Mechanics, source: SparseError) -> Self {
+        Self::Solver { culprit: Layout::new(mechanics).name(mechanics, &source), source }
+    }
+}
+
 /// Projects states of one system; all buffers are made once.
 pub struct Projector<'m> {
     mechanics: &'m dyn Mechanics,
@@ -88,10 +95,8 @@ impl<'m> Projector<'m> {
     /// # Errors
     /// The pattern cannot be analysed.
     pub fn new(mechanics: &'m dyn Mechanics) -> Result<Self, ProjectionError> {
-        let system = InertialSystem::new(mechanics).map_err(|source| ProjectionError::Solver {
-            culprit: Layout::new(mechanics).name(mechanics, &source),
-            source,
-        })?;
+        let system =
+            InertialSystem::new(mechanics).map_err(|source| ProjectionError::solver(mechanics, source))?;
         let sizes = mechanics.sizes();
         Ok(Self {
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
@@ -237,10 +242,7 @@ impl<'m> Projector<'m> {
     }
 
     fn named<T>(&self, result: Result<T, SparseError>) -> Result<T, ProjectionError> {
-        result.map_err(|source| ProjectionError::Solver {
-            culprit: self.system.layout().name(self.mechanics, &source),
-            source,
-        })
+        result.map_err(|source| ProjectionError::solver(self.mechanics, source))
     }
 
     /// Solves for the correction with the momentum part of the right-hand side in place.

@@ -9,17 +9,9 @@
 //! Triangular solves wait for one unknown after the other; products do not. The explicit inverse costs as much as the
 //! factorisation, and some digits where a block is ill-conditioned: only iterations that check their own residual use it.
 
-use crate::kernels::add_multiple;
+use crate::kernels::{Chunk, LANES, add_multiple, chunks};
 use crate::static_lu::Factored;
 use crate::symbolic::Symbolic;
-
-const LANES: usize = 4;
-
-type Chunk = [f64; LANES];
-
-fn chunks(len: usize) -> usize {
-    len.div_ceil(LANES)
-}
 
 /// G, then P and W of each front, by columns that are padded to whole chunks.
 #[derive(Clone, Debug)]

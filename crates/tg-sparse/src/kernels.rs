@@ -4,6 +4,16 @@
 /// baseline instruction set.
 pub(crate) const TILE: usize = 4;
 
+/// Numbers that the loops over padded rows and columns take at a time.
+pub(crate) const LANES: usize = 4;
+
+pub(crate) type Chunk = [f64; LANES];
+
+/// Chunks that hold so many numbers.
+pub(crate) fn chunks(len: usize) -> usize {
+    len.div_ceil(LANES)
+}
+
 /// Copies `columns` columns of the rows in `source` so that the rows of a strip of [`TILE`] columns follow each other
 /// (zeros beyond the last column): the product then reads memory in sequence. Returns the part of `packed` filled.
 pub(crate) fn pack<'a>(

@@ -5,19 +5,10 @@
 //! that both halves of a solve add multiples of contiguous rows. Update matrices are stored in full: adding whole rows is
 //! cheaper than finding their upper halves.
 
-use crate::kernels::dot;
+use crate::kernels::{Chunk, LANES, chunks, dot};
 use crate::pattern::SaddlePattern;
 use crate::pivot::{PIVOT_WEAK, PivotTrouble};
 use crate::symbolic::{Front, Symbolic};
-
-/// Numbers that the loops take at a time.
-const LANES: usize = 4;
-
-type Chunk = [f64; LANES];
-
-fn chunks(len: usize) -> usize {
-    len.div_ceil(LANES)
-}
 
 /// Where one front keeps its numbers.
 #[derive(Clone, Debug)]
