@@ -10,8 +10,11 @@
 //! bookkeeping is saved: M is kept where the factorisation wants it, and a solve checks nothing. Whoever uses it must
 //! look at a residual of his own.
 
+use bytemuck::{cast_slice, cast_slice_mut};
+
 use crate::error::SparseError;
-use crate::ldlt::{Ldlt, LdltLayout};
+use crate::kernels::LANES;
+use crate::ldlt::{Lanes, Ldlt, LdltLayout};
 use crate::pattern::SaddlePattern;
 
 /// `[M, −Aᵀ; A, 0]` with a constant symmetric M: values, factors and every buffer. Made once, then factored and solved
@@ -20,12 +23,16 @@ use crate::pattern::SaddlePattern;
 pub struct SymmetricSystem {
     pattern: SaddlePattern,
     layout: LdltLayout,
-    /// Where each entry of A goes; the last slot of all takes the entries outside of the system.
+    /// Where each entry of A goes; the last slots of all take the entries outside of the system.
     slots: Vec<u32>,
     /// Fronts that hold M and nothing else.
-    constant: Vec<f64>,
+    constant: Vec<Lanes>,
+    /// Magnitudes on their diagonal.
+    diagonal: Vec<Lanes>,
     ldlt: Ldlt,
-    work: Vec<f64>,
+    /// Where each unknown, then each multiplier stands in `work`.
+    places: Vec<u32>,
+    work: Vec<Lanes>,
 }
 
 impl SymmetricSystem {
@@ -38,23 +45,43 @@ impl SymmetricSystem {
     #[track_caller]
     pub fn new(pattern: SaddlePattern, leading: &[&[f64]]) -> Self {
         let layout = LdltLayout::new(&pattern.symbolic);
-        let places = layout.places(&pattern);
-        let mut constant = vec![0.0; layout.len() + 1];
+        let panel_slots = layout.slots(&pattern);
+        let outside = layout.outside();
+        let mut panels = vec![Lanes::ZERO; layout.panels_len() / LANES];
+        let constant: &mut [f64] = cast_slice_mut(&mut panels);
         assert_eq!(leading.len(), pattern.slots.leading.len(), "leading groups");
         for (values, slots) in leading.iter().zip(&pattern.slots.leading) {
             assert_eq!(values.len(), slots.len(), "values of a leading group");
             for (value, &slot) in values.iter().zip(slots) {
-                constant[places[slot as usize] as usize] += value;
+                constant[panel_slots[slot as usize] as usize] += value;
             }
         }
-        // Entries below the diagonal went into the last place too.
-        constant[layout.len()] = 0.0;
+        // Entries below the diagonal went there too.
+        constant[outside as usize] = 0.0;
+        let mut diagonal = vec![Lanes::ZERO; layout.vector_len() / LANES];
+        let magnitudes: &mut [f64] = cast_slice_mut(&mut diagonal);
+        for (place, at) in layout.diagonal().into_iter().enumerate() {
+            let entry = &mut constant[at as usize];
+            if layout.is_idle(place) {
+                *entry = 1.0;
+            }
+            magnitudes[place] = entry.abs();
+        }
         let above = |(&upper, &lower): (&u32, &u32)| {
-            let outside = layout.len() as u32;
-            if places[upper as usize] == outside { places[lower as usize] } else { places[upper as usize] }
+            let (upper, lower) = (panel_slots[upper as usize], panel_slots[lower as usize]);
+            if upper == outside { lower } else { upper }
         };
         let slots = pattern.slots.upper.iter().zip(&pattern.slots.lower).map(above).collect();
-        Self { ldlt: Ldlt::new(&layout), work: vec![0.0; pattern.size()], slots, constant, layout, pattern }
+        Self {
+            ldlt: Ldlt::new(&layout),
+            places: layout.variables(&pattern.symbolic),
+            work: vec![Lanes::ZERO; layout.vector_len() / LANES],
+            slots,
+            constant: panels,
+            diagonal,
+            layout,
+            pattern,
+        }
     }
 
     /// Factors with these values of A, one for each entry of the pattern's Jacobian.
@@ -68,7 +95,7 @@ impl SymmetricSystem {
     #[track_caller]
     pub fn factor(&mut self, jacobian: &[f64]) -> Result<(), SparseError> {
         assert_eq!(jacobian.len(), self.slots.len(), "values of the Jacobian");
-        let panels = self.ldlt.start(&self.constant);
+        let panels = self.ldlt.start(&self.constant, &self.diagonal);
         for (&slot, value) in self.slots.iter().zip(jacobian) {
             panels[slot as usize] -= value;
         }
@@ -86,14 +113,19 @@ impl SymmetricSystem {
     #[track_caller]
     pub fn solve(&mut self, rhs: &mut [f64]) {
         assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
-        let (n, order) = (self.pattern.n, &self.pattern.symbolic.order);
-        for (x, &variable) in self.work.iter_mut().zip(order) {
-            let value = rhs[variable as usize];
-            *x = if (variable as usize) < n { value } else { -value };
+        // Second rows are negated.
+        let (unknowns, multipliers) = self.places.split_at(self.pattern.n);
+        let work: &mut [f64] = cast_slice_mut(&mut self.work);
+        for (&place, &value) in unknowns.iter().zip(&*rhs) {
+            work[place as usize] = value;
         }
-        self.ldlt.solve(&self.pattern.symbolic, &self.layout, &mut self.work);
-        for (x, &variable) in self.work.iter().zip(order) {
-            rhs[variable as usize] = *x;
+        for (&place, &value) in multipliers.iter().zip(&rhs[self.pattern.n..]) {
+            work[place as usize] = -value;
+        }
+        self.ldlt.solve(&self.layout, &mut self.work);
+        let work: &[f64] = cast_slice(&self.work);
+        for (&place, value) in self.places.iter().zip(rhs) {
+            *value = work[place as usize];
         }
     }
 }

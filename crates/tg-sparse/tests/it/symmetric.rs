@@ -53,6 +53,32 @@ fn chains_and_rings() {
     }
 }
 
+/// Problems that have nothing to do with each other, as one.
+fn beside(problems: impl IntoIterator<Item = Problem>) -> Problem {
+    let mut all = Problem::default();
+    for problem in problems {
+        let (n, m) = (all.n, all.m);
+        all.n += problem.n;
+        all.m += problem.m;
+        all.leading.extend(problem.leading.into_iter().map(|(factor, entries, values)| {
+            (factor, entries.into_iter().map(|e| e.map(|(i, j)| (i + n, j + n))).collect(), values)
+        }));
+        all.jacobian.extend(problem.jacobian.iter().map(|e| e.map(|(j, i)| (j + m, i + n))));
+        all.upper.extend(problem.upper);
+        all.lower.extend(problem.lower);
+    }
+    all
+}
+
+#[test]
+fn chains_side_by_side() {
+    for lengths in [&[1, 1, 1, 1, 1][..], &[4, 4, 4], &[6, 2, 6, 3, 6, 6, 1], &[9, 3, 3, 3, 3, 3, 3]] {
+        let chains = lengths.iter().zip(1..).map(|(&bodies, seed)| chain(bodies, 0, false, seed));
+        let difference = difference(beside(chains), 3);
+        assert!(difference < 1e-12, "{lengths:?}: {difference:e}");
+    }
+}
+
 #[test]
 fn lattices() {
     for counts in [&[2, 2][..], &[5, 5], &[8, 6], &[2, 2, 2], &[3, 3, 3], &[4, 3, 3]] {
