@@ -3,8 +3,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use tg_scene::Scheme;
 
 /// Mechanics of tensegrity structures: rigid bodies, bars and cables, from a scene file to an answer and a picture.
 ///
@@ -62,13 +64,14 @@ Examples:
     /// Simulate the motion and write a results folder with an HTML view.
     ///
     /// Everything not given here is taken from the scene's [run] section. Ctrl-C stops at the next step and keeps what there
-    /// is; --resume goes on from there, bit for bit. The trajectory is a folder of Parquet files:
-    /// pandas.read_parquet("tower-run/trajectory").
+    /// is; --resume goes on from there, bit for bit, by the scheme and the step that the run began with. The trajectory is a
+    /// folder of Parquet files: pandas.read_parquet("tower-run/trajectory").
     #[command(after_help = "\
 Examples:
   tg run scenes/tower.toml                                   into tower-run
   tg run scenes/tower.toml --set amplitude=0.005 -o gentle   a weaker earthquake
-  tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen")]
+  tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen
+  tg run scenes/tower.toml --scheme runge-kutta-8 --tolerance 1e-10 -o exact")]
     Run(Run),
     /// All equilibria of a small structure, each proved, with their stability.
     ///
@@ -236,12 +239,18 @@ pub(crate) struct Run {
     /// Simulated time [s].
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) duration: Option<f64>,
-    /// Time step [s].
+    /// Time step [s]; under error control the longest one, and the time between rows.
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) step: Option<f64>,
-    /// Position error aimed at [m] instead of a step.
-    #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "step")]
+    /// Position error aimed at [m]; the step, or the tolerance of a Runge–Kutta scheme, is chosen by trial runs.
+    #[arg(long, value_name = "M", value_parser = positive, conflicts_with_all = ["step", "tolerance"])]
     pub(crate) accuracy: Option<f64>,
+    /// Time stepping scheme.
+    #[arg(long, value_name = "NAME", value_parser = schemes())]
+    pub(crate) scheme: Option<Scheme>,
+    /// Error control of a Runge–Kutta scheme: error of a substep relative to coordinates and velocities.
+    #[arg(long, value_name = "X", value_parser = positive)]
+    pub(crate) tolerance: Option<f64>,
     /// No view.html.
     #[arg(long)]
     pub(crate) no_view: bool,
@@ -421,6 +430,11 @@ fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE")?;
     let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is no number"))?;
     if value.is_finite() { Ok((name.trim().into(), value)) } else { Err("the value is not finite".into()) }
+}
+
+/// The schemes as scene files name them.
+fn schemes() -> impl TypedValueParser<Value = Scheme> {
+    PossibleValuesParser::new(Scheme::ALL.map(|scheme| scheme.to_string())).try_map(|name| name.parse())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -6,6 +6,7 @@ mod generated;
 mod interrupted;
 mod numbers;
 mod outputs;
+mod schemes;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
