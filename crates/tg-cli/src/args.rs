@@ -79,12 +79,16 @@ Examples:
     /// work grows quickly with the structure: what would take too many paths is refused with their number.
     #[command(after_help = "Example:\n  tg equilibria scenes/mechanism.toml --set free_2=0 -o shapes")]
     Equilibria(Equilibria),
-    /// Frequencies or equilibria against a parameter of the scene.
+    /// Frequencies, equilibria or the motion against a parameter of the scene.
+    ///
+    /// Motions are simulated side by side, as many at a time as there are threads; the results do not depend on their number.
+    /// A run that fails says so in its row.
     #[command(after_help = "\
 Examples:
   tg sweep scenes/tower_modal.toml -p ratio --from 0.86 --to 1 -o prestress
   tg plot prestress --what sweep
-  tg sweep scenes/mechanism.toml -p \"spring 1\" --from 6 --to 14 --what equilibria    with folds")]
+  tg sweep scenes/mechanism.toml -p \"spring 1\" --from 6 --to 14 --what equilibria    with folds
+  tg sweep scenes/tower.toml -p amplitude --from 0 --to 0.01 --samples 5 --what motion")]
     Sweep(Sweep),
     /// Make the HTML view of a results folder, or of a scene as built.
     ///
@@ -305,6 +309,8 @@ pub(crate) enum SweepWhat {
     Modes,
     /// All equilibria, with the folds at which they appear and vanish.
     Equilibria,
+    /// The motion of the scene's [run] section: extreme tensions, slackness, displacement, energy.
+    Motion,
 }
 
 /// `tg view`
@@ -349,7 +355,7 @@ pub(crate) enum PlotWhat {
     Points,
     /// Reactions of the supports over time.
     Reactions,
-    /// Frequencies, or energies of equilibria, against the parameter of a sweep.
+    /// Frequencies, energies of equilibria, or extreme tensions of motions, against the parameter of a sweep.
     Sweep,
     /// The structure at six times, or its equilibria, side by side.
     Snapshots,

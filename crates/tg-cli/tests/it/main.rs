@@ -7,6 +7,7 @@ mod interrupted;
 mod numbers;
 mod outputs;
 mod schemes;
+mod sweeps;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
