@@ -1,6 +1,7 @@
 //! What a command says, and how the program ends: 0 success, 1 the analysis failed, 2 bad input.
 
 use std::error::Error;
+use std::fmt;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
@@ -52,6 +53,17 @@ impl Failure {
     }
 }
 
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Scene(error) => error.fmt(f),
+            Self::Usage(message) => f.write_str(message),
+            Self::Results(error) => error.fmt(f),
+            Self::Analysis(error) => error.fmt(f),
+        }
+    }
+}
+
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         Self::Scene(error)
@@ -97,10 +109,7 @@ pub(crate) fn give(result: Result<Answer, Failure>, as_json: bool) -> ExitCode {
 }
 
 fn describe(failure: &Failure) -> (&'static str, String, Value, u8) {
-    let plain = |kind, message: String, code| {
-        (kind, format!("error: {message}"), json!({ "message": message }), code)
-    };
-    match failure {
+    let (kind, code) = match failure {
         Failure::Scene(SceneError::Mistake(mistake)) => {
             let document = json!({
                 "file": mistake.file,
@@ -109,13 +118,14 @@ fn describe(failure: &Failure) -> (&'static str, String, Value, u8) {
                 "message": mistake.message,
                 "help": mistake.help,
             });
-            ("scene", mistake.render(std::io::stderr().is_terminal()), document, 2)
+            return ("scene", mistake.render(std::io::stderr().is_terminal()), document, 2);
         }
-        Failure::Scene(error) => plain("scene", error.to_string(), 2),
-        Failure::Usage(message) => plain("usage", message.clone(), 2),
-        Failure::Results(error) => plain("results", error.to_string(), 2),
-        Failure::Analysis(error) => plain("analysis", error.to_string(), 1),
-    }
+        Failure::Scene(_) => ("scene", 2),
+        Failure::Usage(_) => ("usage", 2),
+        Failure::Results(_) => ("results", 2),
+        Failure::Analysis(_) => ("analysis", 1),
+    };
+    (kind, format!("error: {failure}"), json!({ "message": failure.to_string() }), code)
 }
 
 /// JSON for people and machines.

@@ -3,8 +3,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use tg_scene::Scheme;
 
 /// Mechanics of tensegrity structures: rigid bodies, bars and cables, from a scene file to an answer and a picture.
 ///
@@ -62,13 +64,14 @@ Examples:
     /// Simulate the motion and write a results folder with an HTML view.
     ///
     /// Everything not given here is taken from the scene's [run] section. Ctrl-C stops at the next step and keeps what there
-    /// is; --resume goes on from there, bit for bit. The trajectory is a folder of Parquet files:
-    /// pandas.read_parquet("tower-run/trajectory").
+    /// is; --resume goes on from there, bit for bit, by the scheme and the step that the run began with. The trajectory is a
+    /// folder of Parquet files: pandas.read_parquet("tower-run/trajectory").
     #[command(after_help = "\
 Examples:
   tg run scenes/tower.toml                                   into tower-run
   tg run scenes/tower.toml --set amplitude=0.005 -o gentle   a weaker earthquake
-  tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen")]
+  tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen
+  tg run scenes/tower.toml --scheme runge-kutta-8 --tolerance 1e-10 -o exact")]
     Run(Run),
     /// All equilibria of a small structure, each proved, with their stability.
     ///
@@ -76,12 +79,16 @@ Examples:
     /// work grows quickly with the structure: what would take too many paths is refused with their number.
     #[command(after_help = "Example:\n  tg equilibria scenes/mechanism.toml --set free_2=0 -o shapes")]
     Equilibria(Equilibria),
-    /// Frequencies or equilibria against a parameter of the scene.
+    /// Frequencies, equilibria or the motion against a parameter of the scene.
+    ///
+    /// Motions are simulated side by side, as many at a time as there are threads; the results do not depend on their number.
+    /// A run that fails says so in its row.
     #[command(after_help = "\
 Examples:
   tg sweep scenes/tower_modal.toml -p ratio --from 0.86 --to 1 -o prestress
   tg plot prestress --what sweep
-  tg sweep scenes/mechanism.toml -p \"spring 1\" --from 6 --to 14 --what equilibria    with folds")]
+  tg sweep scenes/mechanism.toml -p \"spring 1\" --from 6 --to 14 --what equilibria    with folds
+  tg sweep scenes/tower.toml -p amplitude --from 0 --to 0.01 --samples 5 --what motion")]
     Sweep(Sweep),
     /// Make the HTML view of a results folder, or of a scene as built.
     ///
@@ -236,12 +243,18 @@ pub(crate) struct Run {
     /// Simulated time [s].
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) duration: Option<f64>,
-    /// Time step [s].
+    /// Time step [s]; under error control the longest one, and the time between rows.
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) step: Option<f64>,
-    /// Position error aimed at [m] instead of a step.
-    #[arg(long, value_name = "M", value_parser = positive, conflicts_with = "step")]
+    /// Position error aimed at [m]; the step, or the tolerance of a Runge–Kutta scheme, is chosen by trial runs.
+    #[arg(long, value_name = "M", value_parser = positive, conflicts_with_all = ["step", "tolerance"])]
     pub(crate) accuracy: Option<f64>,
+    /// Time stepping scheme.
+    #[arg(long, value_name = "NAME", value_parser = schemes())]
+    pub(crate) scheme: Option<Scheme>,
+    /// Error control of a Runge–Kutta scheme: error of a substep relative to coordinates and velocities.
+    #[arg(long, value_name = "X", value_parser = positive)]
+    pub(crate) tolerance: Option<f64>,
     /// No view.html.
     #[arg(long)]
     pub(crate) no_view: bool,
@@ -296,6 +309,8 @@ pub(crate) enum SweepWhat {
     Modes,
     /// All equilibria, with the folds at which they appear and vanish.
     Equilibria,
+    /// The motion of the scene's [run] section: extreme tensions, slackness, displacement, energy.
+    Motion,
 }
 
 /// `tg view`
@@ -340,7 +355,7 @@ pub(crate) enum PlotWhat {
     Points,
     /// Reactions of the supports over time.
     Reactions,
-    /// Frequencies, or energies of equilibria, against the parameter of a sweep.
+    /// Frequencies, energies of equilibria, or extreme tensions of motions, against the parameter of a sweep.
     Sweep,
     /// The structure at six times, or its equilibria, side by side.
     Snapshots,
@@ -421,6 +436,11 @@ fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("write NAME=VALUE")?;
     let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is no number"))?;
     if value.is_finite() { Ok((name.trim().into(), value)) } else { Err("the value is not finite".into()) }
+}
+
+/// The schemes as scene files name them.
+fn schemes() -> impl TypedValueParser<Value = Scheme> {
+    PossibleValuesParser::new(Scheme::ALL.map(|scheme| scheme.to_string())).try_map(|name| name.parse())
 }
 
 fn positive(text: &str) -> Result<f64, String> {

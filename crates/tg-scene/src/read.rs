@@ -6,19 +6,15 @@ use crate::assemble::{Context, assemble};
 use crate::deserialize::from_node;
 use crate::error::{Mistake, ReadError, SceneError};
 use crate::expression::Variables;
-use crate::quantity::Quantity;
-use crate::run::{ChannelName, Format as RunFormat, RunSection, Scheme};
+use crate::run::RunSection;
 use crate::scene::Scene;
+use crate::settings::{RunSettings, run_settings};
 use crate::structure::Built;
-use crate::{json_text, toml_text, values};
+use crate::{json_text, toml_text};
 
 /// Version of the format that this crate reads.
 pub const VERSION: u32 = 1;
 
-/// Spectral radius of generalised-α at infinity that a scene need not say.
-const SPECTRAL_RADIUS: f64 = 0.7;
-/// Pictures per second that a scene need not say.
-const FRAME_RATE: f64 = 50.0;
 /// Larger recordings \[bytes\] are a slip of the pen: hours of ground motion at 1 kHz have less.
 const LARGEST_FILE: u64 = 256 << 20;
 
@@ -67,46 +63,6 @@ pub struct SceneFile {
     /// Its text.
     pub text: String,
     folder: Folder,
-}
-
-/// The numbers of a scene's run section.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RunSettings {
-    /// Simulated time \[s\].
-    pub duration: f64,
-    /// Step \[s\], unless accuracy is asked for.
-    pub step: Option<f64>,
-    /// Position error aimed at \[m\].
-    pub accuracy: Option<f64>,
-    /// Time stepping.
-    pub scheme: Scheme,
-    /// Spectral radius of generalised-α.
-    pub spectral_radius: f64,
-    /// Time between rows \[s\].
-    pub every: Option<f64>,
-    /// Pictures per second.
-    pub frame_rate: f64,
-    /// Columns.
-    pub channels: Vec<ChannelName>,
-    /// Further forms of the trajectory.
-    pub formats: Vec<RunFormat>,
-}
-
-impl RunSettings {
-    /// The settings of a scene that says nothing about its run, without a step.
-    pub fn new(duration: f64) -> Self {
-        Self {
-            duration,
-            step: None,
-            accuracy: None,
-            scheme: Scheme::default(),
-            spectral_radius: SPECTRAL_RADIUS,
-            every: None,
-            frame_rate: FRAME_RATE,
-            channels: vec![ChannelName::Energies, ChannelName::Lengths, ChannelName::Tensions],
-            formats: Vec::new(),
-        }
-    }
 }
 
 impl SceneFile {
@@ -195,41 +151,4 @@ fn parse(text: &str, language: Language) -> Result<Scene, ReadError> {
         return Err(ReadError::new(message).at(&scene.dimension.span));
     }
     Ok(scene)
-}
-
-fn run_settings(run: &RunSection, variables: &Variables) -> Result<RunSettings, ReadError> {
-    let positive = |quantity: &Quantity| values::positive(variables, quantity);
-    let optional = |quantity: &Option<Quantity>| quantity.as_ref().map(positive).transpose();
-    let (step, accuracy) = (optional(&run.step)?, optional(&run.accuracy)?);
-    if let (Some(_), Some(accuracy)) = (&run.step, &run.accuracy) {
-        let error = ReadError::new("step and accuracy are both given").at(&accuracy.span);
-        return Err(error.help("keep one"));
-    }
-    if step.is_none() && accuracy.is_none() {
-        return Err(ReadError::new("the run has no step")
-            .at(&run.duration.span)
-            .help("give step [s] or accuracy [m]"));
-    }
-    let spectral_radius =
-        run.spectral_radius.as_ref().map_or(Ok(SPECTRAL_RADIUS), |r| variables.number(r))?;
-    if let (Some(given), false) = (&run.spectral_radius, (0.0..=1.0).contains(&spectral_radius)) {
-        return Err(ReadError::new("the spectral radius lies between 0 and 1").at(&given.span));
-    }
-    let mut settings = RunSettings::new(positive(&run.duration)?);
-    if let Some(channels) = &run.channels {
-        settings.channels.clone_from(channels);
-    }
-    if !run.points.is_empty() && !settings.channels.contains(&ChannelName::Points) {
-        settings.channels.push(ChannelName::Points);
-    }
-    Ok(RunSettings {
-        step,
-        accuracy,
-        scheme: run.scheme.unwrap_or_default(),
-        spectral_radius,
-        every: optional(&run.every)?,
-        frame_rate: optional(&run.frame_rate)?.unwrap_or(FRAME_RATE),
-        formats: run.formats.clone(),
-        ..settings
-    })
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::quantity::Quantity;
+use crate::scheme::Scheme;
 use crate::spanned::Spanned;
 
 /// A simulation: how long, how finely, and what is kept.
@@ -14,13 +15,17 @@ pub struct RunSection {
     #[serde(alias = "end")]
     #[schemars(extend("x-aliases" = ["end"]))]
     pub duration: Quantity,
-    /// Time step \[s\]. Either this or `accuracy`.
+    /// Time step \[s\]. Either this or `accuracy`. With a `tolerance` it is the longest step, and may be left out:
+    /// `every` is taken then, or else the time between pictures.
     pub step: Option<Quantity>,
-    /// Position error \[m\] that is aimed at instead: the step is chosen by comparing trial runs with
-    /// coarser ones.
+    /// Position error \[m\] that is aimed at instead: the step, of Runge–Kutta schemes the tolerance, is chosen
+    /// by comparing trial runs with coarser ones.
     pub accuracy: Option<Quantity>,
     /// Time stepping; the symplectic scheme if not given.
     pub scheme: Option<Scheme>,
+    /// Error control of a Runge–Kutta scheme: error of each of its substeps relative to coordinates and
+    /// velocities, a hundredth of it \[m, m/s\] where these are near zero. Fixed steps if not given.
+    pub tolerance: Option<Quantity>,
     /// Spectral radius of generalised-α at infinity, in [0, 1]; 0.7 if not given.
     pub spectral_radius: Option<Quantity>,
     /// Time between rows of the trajectory \[s\]; every step if not given.
@@ -35,17 +40,6 @@ pub struct RunSection {
     /// Further forms of the trajectory.
     #[serde(default)]
     pub formats: Vec<Format>,
-}
-
-/// Time stepping.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Scheme {
-    /// The modified symplectic scheme of the framework paper: second order, no numerical damping.
-    #[default]
-    Symplectic,
-    /// Generalised-α: second order, damps high frequencies.
-    GeneralizedAlpha,
 }
 
 /// A kind of columns of the trajectory.

@@ -2,16 +2,18 @@
 
 mod accuracy;
 mod channels;
+mod method;
+mod outcome;
 mod recording;
+mod tolerance;
+mod trial;
 
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tg_integrate::{
-    Ended, GeneralizedAlpha, NewtonOptions, Run as Integration, State, Stepper, Summary, Symplectic,
-};
+use tg_integrate::{Ended, Run as Integration};
 use tg_report::{Existing, Formats, Kind, Manifest, Results, ResultsWriter, write_glb, write_vtk};
-use tg_scene::{Format, RunSettings, Scheme, Structure};
+use tg_scene::{Format, RunSettings, Structure};
 
 use super::with_structure;
 use crate::answer::{Answer, Failure};
@@ -21,7 +23,11 @@ use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, watch_for_interrupts};
 use crate::results::{hash, manifest, set, told, write_view};
 use channels::Channels;
-use recording::Recording;
+use outcome::counts;
+use recording::{Checkpoint, Recording};
+
+pub(crate) use method::Method;
+pub(crate) use outcome::doubts;
 
 pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
     let loaded = Loaded::new(&arguments.scene)?;
@@ -32,19 +38,37 @@ pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
 
 /// The scene's run section, with what the command line says instead.
 fn settings(loaded: &Loaded, arguments: &Run) -> Result<RunSettings, Failure> {
-    let mut settings = match (loaded.file.run(&loaded.set)?, arguments.duration) {
+    let &Run { duration, step, accuracy, scheme, tolerance, .. } = arguments;
+    let mut settings = match (loaded.file.run(&loaded.set)?, duration) {
         (Some(settings), _) => settings,
-        (None, Some(duration)) if arguments.step.is_some() || arguments.accuracy.is_some() => {
-            RunSettings::new(duration)
-        }
+        (None, Some(duration)) if step.or(accuracy).or(tolerance).is_some() => RunSettings::new(duration),
         (None, _) => {
             let message = "the scene has no [run] section; give --duration and --step";
             return Err(Failure::Usage(message.into()));
         }
     };
-    settings.duration = arguments.duration.unwrap_or(settings.duration);
-    if arguments.step.is_some() || arguments.accuracy.is_some() {
-        (settings.step, settings.accuracy) = (arguments.step, arguments.accuracy);
+    settings.duration = duration.unwrap_or(settings.duration);
+    if let Some(scheme) = scheme {
+        settings.scheme = scheme;
+        // A tolerance of the scene is one of the scene's scheme.
+        settings.tolerance = settings.tolerance.filter(|_| scheme.controls_error());
+    }
+    if accuracy.is_some() {
+        (settings.step, settings.accuracy, settings.tolerance) = (None, accuracy, None);
+    }
+    if step.is_some() {
+        (settings.step, settings.accuracy) = (step, None);
+    }
+    if tolerance.is_some() {
+        if !settings.scheme.controls_error() {
+            let message = format!(
+                "the scheme {} has no error control; leave --tolerance out, or give --scheme runge-kutta-5 or \
+                 runge-kutta-8",
+                settings.scheme
+            );
+            return Err(Failure::Usage(message));
+        }
+        (settings.tolerance, settings.accuracy) = (tolerance, None);
     }
     Ok(settings)
 }
@@ -61,29 +85,32 @@ fn simulate<const D: usize>(
     arguments: &Run,
 ) -> Result<Answer, Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| default_folder(loaded));
-    let mut stepper = stepper(structure, settings)?;
     let formats = Formats {
         csv: settings.formats.contains(&Format::Csv),
         npy: settings.formats.contains(&Format::Npy),
     };
     let painter = Painter::new(structure)?;
     let channels = Channels::new(structure, settings)?;
-    let (mut state, step, writer) = if arguments.resume {
-        let (state, step) = checkpoint(loaded, &folder)?;
+    let earlier = arguments.resume.then(|| checkpoint(loaded, &folder, arguments)).transpose()?;
+    let resumed = earlier.as_ref().map(|earlier| earlier.state.t);
+    let (method, evidence) = match &earlier {
+        Some(earlier) => (earlier.method, Value::Null),
+        None => Method::of(structure, settings)?,
+    };
+    let model = &structure.model;
+    let mut stepper = method.stepper(model).map_err(Failure::analysis)?;
+    let (mut state, writer) = if let Some(Checkpoint { state, .. }) = earlier {
         let writer = ResultsWriter::resume(&folder, formats, state.t)?;
-        (state, step, writer)
+        (state, writer)
     } else {
-        let (step, evidence) = step(structure, settings)?;
-        let manifest = describe(loaded, settings, step, evidence, &channels, &painter);
+        let manifest = describe(loaded, settings, &method, evidence, &channels, &painter);
         let existing = if arguments.force { Existing::Replace } else { Existing::Keep };
         let writer = ResultsWriter::create(&folder, manifest, formats, existing)?;
-        let model = &structure.model;
         let state = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
-        (state.map_err(Failure::analysis)?, step, writer)
+        (state.map_err(Failure::analysis)?, writer)
     };
-    let resumed = arguments.resume.then_some(state.t);
-    let mut recording = Recording::new(writer, channels, &painter, settings, (step, resumed));
-    let outcome = Integration::new(step, settings.duration)
+    let mut recording = Recording::new(writer, channels, &painter, settings, (method, resumed));
+    let outcome = Integration::new(method.step, settings.duration)
         .observe(&mut recording)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
@@ -93,7 +120,7 @@ fn simulate<const D: usize>(
         Err(error) => (error.summary, Some(error.to_string())),
     };
     let mut warnings = remarks(structure);
-    warnings.extend(doubts(&summary));
+    warnings.extend(doubts(&summary, &method));
     let counts = counts(&summary, &state);
     recording.finish(&state, &counts, &warnings, why.clone())?;
     other_formats(&folder, settings)?;
@@ -107,7 +134,8 @@ fn simulate<const D: usize>(
         "interrupted": why,
         "summary": counts,
     });
-    let mut text = format!("{}: {} steps of {step} s to t = {} s\n", loaded.title(), summary.steps, state.t);
+    let (steps, words) = (summary.steps, method.words());
+    let mut text = format!("{}: {steps} steps of {words} to t = {} s\n", loaded.title(), state.t);
     text +=
         &if arguments.no_view { format!("results in {}\n", folder.display()) } else { told(Some(&folder)) };
     let mut answer = Answer::new(document, text).warn(warnings);
@@ -115,32 +143,10 @@ fn simulate<const D: usize>(
     Ok(answer)
 }
 
-fn stepper<'s, const D: usize>(
-    structure: &'s Structure<D>,
-    settings: &RunSettings,
-) -> Result<Box<dyn Stepper + 's>, Failure> {
-    let (model, options) = (&structure.model, NewtonOptions::default());
-    Ok(match settings.scheme {
-        Scheme::Symplectic => Box::new(Symplectic::new(model, options).map_err(Failure::analysis)?),
-        Scheme::GeneralizedAlpha => Box::new(
-            GeneralizedAlpha::new(model, settings.spectral_radius, options).map_err(Failure::analysis)?,
-        ),
-    })
-}
-
-/// The step, and what it was chosen by.
-fn step<const D: usize>(structure: &Structure<D>, settings: &RunSettings) -> Result<(f64, Value), Failure> {
-    match (settings.step, settings.accuracy) {
-        (Some(step), _) => Ok((step, Value::Null)),
-        (None, Some(accuracy)) => accuracy::step(structure, settings, accuracy),
-        (None, None) => Err(Failure::Usage("the run has no step; give --step or --accuracy".into())),
-    }
-}
-
 fn describe<const D: usize>(
     loaded: &Loaded,
     settings: &RunSettings,
-    step: f64,
+    method: &Method,
     evidence: Value,
     channels: &Channels<'_, D>,
     painter: &Painter<'_, D>,
@@ -148,13 +154,11 @@ fn describe<const D: usize>(
     let settings = json!({
         "command": "run",
         "duration": settings.duration,
-        "step": step,
+        "step": method.step,
+        "tolerance": method.tolerance,
         "accuracy": settings.accuracy,
         "step_chosen_by": evidence,
-        "scheme": match settings.scheme {
-            Scheme::Symplectic => "symplectic",
-            Scheme::GeneralizedAlpha => "generalized-alpha",
-        },
+        "scheme": method.scheme,
         "every": settings.every,
         "frame_rate": settings.frame_rate,
     });
@@ -163,23 +167,28 @@ fn describe<const D: usize>(
     manifest
 }
 
-/// The state and step to go on with.
-fn checkpoint(loaded: &Loaded, folder: &Path) -> Result<(State, f64), Failure> {
+/// What to go on with.
+fn checkpoint(loaded: &Loaded, folder: &Path, arguments: &Run) -> Result<Checkpoint, Failure> {
     let results = Results::open(folder)?;
     let earlier = results.manifest.scene.as_ref().map(|scene| scene.hash.as_str());
     let earlier_set = results.manifest.settings.get("set").unwrap_or(&Value::Null);
+    let refuse = |why: String| Err(Failure::Usage(format!("{}: {why}", folder.display())));
     if earlier != Some(hash(loaded).as_str()) || *earlier_set != set(loaded) {
-        let message = format!(
-            "{}: these results are of another scene or other parameters, or it has changed since",
-            folder.display()
+        return refuse(
+            "these results are of another scene or other parameters, or it has changed since".into(),
         );
-        return Err(Failure::Usage(message));
     }
-    let checkpoint: Option<recording::Checkpoint> = results.checkpoint()?;
-    let checkpoint = checkpoint.ok_or_else(|| {
-        Failure::Usage(format!("{}: there is no checkpoint to go on from; use --force", folder.display()))
-    })?;
-    Ok((checkpoint.state, checkpoint.step))
+    let Some(checkpoint): Option<Checkpoint> = results.checkpoint()? else {
+        return refuse("there is no checkpoint to go on from; use --force".into());
+    };
+    let Method { scheme, tolerance, .. } = checkpoint.method;
+    if arguments.scheme.is_some_and(|given| given != scheme) {
+        return refuse(format!("this run was begun with the scheme {scheme}; go on with it, or use --force"));
+    }
+    if arguments.tolerance.is_some() && arguments.tolerance != tolerance {
+        return refuse("this run was begun with another tolerance; go on with it, or use --force".into());
+    }
+    Ok(checkpoint)
 }
 
 fn other_formats(folder: &Path, settings: &RunSettings) -> Result<(), Failure> {
@@ -197,36 +206,4 @@ fn other_formats(folder: &Path, settings: &RunSettings) -> Result<(), Failure> {
         write_glb(&folder.join("motion.glb"), outline, &frames)?;
     }
     Ok(())
-}
-
-fn counts(summary: &Summary, state: &State) -> Value {
-    json!({
-        "end": state.t,
-        "steps": summary.steps,
-        "iterations": summary.iterations,
-        "divided_steps": summary.divided,
-        "frozen_substeps": summary.frozen,
-        "forced_cables": summary.forced,
-        "fallbacks": summary.fallbacks,
-        "largest_residual": summary.residual,
-    })
-}
-
-/// What makes the result doubtful.
-fn doubts(summary: &Summary) -> Vec<String> {
-    let mut doubts = Vec::new();
-    if summary.forced > 0 {
-        doubts.push(format!(
-            "{} times a cable was held taut or slack against its law, where a damped cable re-tensions; a smaller step does \
-             so less often",
-            summary.forced
-        ));
-    }
-    if summary.divided > summary.steps / 10 {
-        doubts.push(format!(
-            "{} of {} steps had to be divided; choose a smaller step",
-            summary.divided, summary.steps
-        ));
-    }
-    doubts
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use tg_report::{
-    Picture, Plot, Projection, Results, Shape, View, evenly, strip_png, strip_svg, write_glb, write_vtk,
+    Kind, Picture, Plot, Projection, Results, Shape, View, evenly, strip_png, strip_svg, write_glb, write_vtk,
 };
 
 use super::with_structure;
@@ -85,11 +85,7 @@ fn name(what: PlotWhat) -> &'static str {
 
 fn curves(results: &Results, what: PlotWhat) -> Result<Option<Plot>, Failure> {
     let group = match what {
-        // Equilibria are drawn by the sweep itself, frequencies are columns.
-        PlotWhat::Sweep => match results.plots()?.into_iter().next() {
-            Some(plot) => return Ok(Some(plot)),
-            None => "frequency",
-        },
+        PlotWhat::Sweep => return swept(results),
         PlotWhat::EnergyDrift => return Ok(Plot::energy_drift(&results.table()?, "total energy")),
         PlotWhat::Tensions => "tension",
         PlotWhat::Lengths => "length",
@@ -100,6 +96,16 @@ fn curves(results: &Results, what: PlotWhat) -> Result<Option<Plot>, Failure> {
         PlotWhat::Snapshots => return Ok(None),
     };
     Ok(Plot::of_group(&results.table()?, group))
+}
+
+/// Equilibria are drawn by the sweep itself, frequencies and what motions come to are columns.
+fn swept(results: &Results) -> Result<Option<Plot>, Failure> {
+    if let Some(plot) = results.plots()?.into_iter().next() {
+        return Ok(Some(plot));
+    }
+    let table = results.table()?;
+    let of_motions = || Plot::of_group(&table, "tension").filter(|_| results.manifest.kind == Kind::Sweep);
+    Ok(Plot::of_group(&table, "frequency").or_else(of_motions))
 }
 
 fn snapshots(results: &Results, png: bool) -> Result<Vec<u8>, Failure> {

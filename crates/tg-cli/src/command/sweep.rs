@@ -1,7 +1,9 @@
-//! `tg sweep`: frequencies or equilibria against a parameter.
+//! `tg sweep`: frequencies, equilibria or the motion against a parameter.
 
 mod equilibria;
+mod motion;
 
+use rayon::prelude::*;
 use serde_json::json;
 use tg_modal::{SweepOptions, sweep as follow};
 use tg_model::Model;
@@ -25,11 +27,14 @@ pub(crate) fn sweep(arguments: &Sweep) -> Result<Answer, Failure> {
         loaded.set.retain(|(name, _)| *name != arguments.parameter);
     }
     match arguments.what {
-        SweepWhat::Modes if !is_parameter => Err(Failure::Usage(format!(
+        SweepWhat::Modes | SweepWhat::Motion if !is_parameter => Err(Failure::Usage(format!(
             "the scene has no parameter `{}`; give what changes a name under [parameters]",
             arguments.parameter
         ))),
         SweepWhat::Modes => with_structure!(&loaded.built, structure => modes(&loaded, structure, arguments)),
+        SweepWhat::Motion => {
+            with_structure!(&loaded.built, structure => motion::answer(&loaded, structure, arguments))
+        }
         SweepWhat::Equilibria => {
             with_structure!(&loaded.built, structure => {
                 equilibria::answer(&loaded, structure, arguments, is_parameter)
@@ -44,6 +49,11 @@ fn values(arguments: &Sweep) -> Vec<f64> {
     (0..arguments.samples)
         .map(|k| arguments.from + (arguments.to - arguments.from) * k as f64 / last)
         .collect()
+}
+
+/// What is found at each value, in their order. One value at a time for each thread: some take much longer than others.
+fn side_by_side<T: Send>(values: &[f64], find: impl Fn(f64) -> T + Sync) -> Vec<T> {
+    values.par_iter().with_max_len(1).map(|&value| find(value)).collect()
 }
 
 /// The structure of a scene in the dimension of another of its structures.
@@ -84,10 +94,15 @@ where
 {
     let values = values(arguments);
     let progress = bar(values.len() as u64, "{wide_bar} {pos} of {len} values");
+    // Equilibria do not depend on each other, and those that have to be found take as long as the modes; modes are matched
+    // with those before.
+    let mut ready = side_by_side(&values, |value| Some(balanced::<D>(loaded, arguments, value)));
     let mut broken = None;
     let found = follow(&values, &SweepOptions::new(arguments.count), |value| {
         progress.inc(1);
-        balanced::<D>(loaded, arguments, value).map_err(|failure| {
+        let taken = values.iter().zip(&mut ready).find(|(at, found)| **at == value && found.is_some());
+        let found = taken.and_then(|(_, found)| found.take());
+        found.unwrap_or_else(|| balanced::<D>(loaded, arguments, value)).map_err(|failure| {
             broken = Some(failure);
             std::io::Error::other("no structure or no equilibrium")
         })

@@ -6,6 +6,8 @@ mod generated;
 mod interrupted;
 mod numbers;
 mod outputs;
+mod schemes;
+mod sweeps;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -6,3 +6,4 @@ mod folder;
 mod import;
 mod limits;
 mod malformed;
+mod schemes;

@@ -11,6 +11,7 @@ use tg_report::ResultsWriter;
 use tg_scene::RunSettings;
 
 use super::channels::Channels;
+use super::method::Method;
 use crate::answer::Failure;
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, bar};
@@ -23,8 +24,8 @@ const ROUNDING: f64 = 1e-3;
 /// What `--resume` goes on with.
 #[derive(Deserialize, Serialize)]
 pub(super) struct Checkpoint {
-    /// The step of the run \[s\].
-    pub(super) step: f64,
+    /// How the run is stepped.
+    pub(super) method: Method,
     pub(super) state: State,
 }
 
@@ -59,7 +60,7 @@ pub(super) struct Recording<'p, 's, const D: usize> {
     painter: &'p Painter<'s, D>,
     rows: Due,
     frames: Due,
-    step: f64,
+    method: Method,
     /// State times up to this one are in the folder already.
     resumed: Option<f64>,
     last_checkpoint: Option<Instant>,
@@ -74,15 +75,16 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
         channels: Channels<'s, D>,
         painter: &'p Painter<'s, D>,
         settings: &RunSettings,
-        (step, resumed): (f64, Option<f64>),
+        (method, resumed): (Method, Option<f64>),
     ) -> Self {
+        let step = method.step;
         Self {
             writer,
             channels,
             painter,
             rows: Due::new(settings.every.unwrap_or(step), step, resumed),
             frames: Due::new((1.0 / settings.frame_rate).max(step), step, resumed),
-            step,
+            method,
             resumed,
             last_checkpoint: None,
             progress: bar(1000, "{wide_bar} {percent}% of the motion, {eta} left"),
@@ -110,7 +112,7 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
 
     fn checkpoint(&mut self, state: &State) -> Result<(), Failure> {
         self.last_checkpoint = Some(Instant::now());
-        self.writer.checkpoint(&Checkpoint { step: self.step, state: state.clone() })?;
+        self.writer.checkpoint(&Checkpoint { method: self.method, state: state.clone() })?;
         Ok(())
     }
 

@@ -289,5 +289,40 @@ wrong!(
     "step and accuracy are both given",
     "keep one"
 );
+wrong!(
+    unknown_scheme, Toml,
+    "step = 0.01" => "step = 0.01, scheme = \"runge-kutta\"",
+    16:45,
+    "`runge-kutta` is not known here",
+    "did you mean `runge-kutta-"
+);
+wrong!(
+    tolerance_without_scheme, Toml,
+    "step = 0.01" => "step = 0.01, tolerance = 1e-6",
+    16:48,
+    "the scheme symplectic has no error control",
+    "leave tolerance out, or take scheme"
+);
+wrong!(
+    tolerance_of_fixed_steps, Json,
+    "\"step\": 0.01" => "\"step\": 0.01, \"scheme\": \"leapfrog\", \"tolerance\": 1e-6",
+    21:76,
+    "the scheme leapfrog has no error control",
+    "leave tolerance out, or take scheme"
+);
+wrong!(
+    tolerance_and_accuracy, Toml,
+    "step = 0.01" => "scheme = \"runge-kutta-8\", tolerance = 1e-6, accuracy = 1e-3",
+    16:61,
+    "tolerance and accuracy are both given",
+    "keep one"
+);
+wrong!(
+    negative_tolerance, Toml,
+    "step = 0.01" => "scheme = \"runge-kutta-8\", tolerance = -1e-6",
+    16:61,
+    "the value is -0.000001; it must be positive",
+    ""
+);
 wrong!(no_step, Json, ", \"step\": 0.01" => "", 21:24, "the run has no step", "give step [s] or accuracy [m]");
 wrong!(infinite, Toml, "h = 2" => "h = inf", 4:20, "the value is inf", "give a finite number");
