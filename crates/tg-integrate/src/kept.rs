@@ -28,13 +28,14 @@ impl Kept {
 
     /// Time, q and Δ of the step whose factors are kept, if it had the length `h`.
     pub(crate) fn get(self, state: &State, h: f64) -> Option<(f64, &[f64], &[f64])> {
-        let memory = &state.memory[self.offset..];
+        let memory = &state.memory[self.offset..self.end()];
         let (q, delta) = memory[HEAD..].split_at(self.n);
         (memory[1] == h).then_some((memory[0], q, delta))
     }
 
     pub(crate) fn set(self, state: &mut State, t: f64, h: f64, q: &[f64], delta: &[f64]) {
-        let memory = &mut state.memory[self.offset..];
+        let end = self.end();
+        let memory = &mut state.memory[self.offset..end];
         (memory[0], memory[1]) = (t, h);
         memory[HEAD..HEAD + self.n].copy_from_slice(q);
         memory[HEAD + self.n..].copy_from_slice(delta);

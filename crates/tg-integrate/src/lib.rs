@@ -56,6 +56,7 @@ mod hermite;
 mod index_one;
 mod kept;
 mod leapfrog;
+mod previous;
 mod recorder;
 mod run;
 mod runge_kutta;

@@ -13,11 +13,12 @@
 //!   never decay: invisible in q, it pollutes q̇, λ and the energy. The state keeps the projected velocity;
 //!   p_k = Ḿ q̇_k. (53b)'s last term is normal, and the projection would remove h/2 F's part along it as well, but
 //!   only to the rounding of that part, which at rest is far above q̇.
-//! - Newton starts from q_k + h q̇_k.
+//! - Newton starts from Δ = h q̇_k + (h q̇_k - Δ_last), the last step's acceleration once more, and from multipliers that go on
+//!   as they did, where steps resolve the motion. On the guyed mast of 32 stages that saves half of the factorisations.
 //! - The factors of (55) are kept over iterations and steps while they serve: new ones are taken where the residual falls by
-//!   less than a factor of ten, and after a step of more than four iterations. On the guyed mast of 32 stages a step then takes
-//!   four iterations and a third of the time that full Newton steps take. The last correction is applied without
-//!   another look at its residual.
+//!   less than a factor of ten, and after a step of more than five iterations. A step of that mast then takes four or five
+//!   iterations, one in eight has new factors, and the time is less than a third of that of full Newton steps. The last
+//!   correction is applied without another look at its residual.
 //! - The unknown is Δ, not q_{k+1}: no digits cancel at small steps.
 //! - Residuals are compared with their own terms (dynamic rows) and with the member's size (constraints), so that the
 //!   tolerance means the same at every h. A correction below the resolution of q ends the iteration as well.
@@ -28,26 +29,18 @@
 //! The midpoint rule does not damp what it cannot resolve: a damper with h η/2 far above the mass that it acts on
 //! reverses the closing velocity instead of stopping it (measured: factor -0.88 at a ratio of 15). Choose h smaller.
 
-use tg_model::{At, Mechanics, ProjectionError, Projector, Run};
-use tg_sparse::SparseError;
+mod equations;
+mod newton;
+
+use tg_model::{Mechanics, Projector};
 
 use crate::check;
 use crate::error::{StartError, StepError};
 use crate::kept::Kept;
+use crate::previous::Previous;
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
-use crate::system::{Factors, Failure, NewtonSystem, Worst, larger};
-
-/// The first correction removes most of a smooth residual; those after it are not trusted to do better than this.
-const FASTEST: f64 = 0.02;
-/// What the last correction, whose residual is not looked at, is to leave of the tolerance: with full Newton steps it would
-/// have been as little.
-const POLISHED: f64 = 1e-3;
-/// A residual that falls less than this in an iteration asks for new factors.
-const SLOW: f64 = 0.1;
-/// A step that took more iterations leaves the next one without factors. On the masts of 2 and 32 stages four cost less than
-/// two or three (factors are taken too often) and no more than five.
-const KEEP_UP_TO: u32 = 4;
+use crate::system::{Failure, NewtonSystem, Worst};
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
 pub struct Symplectic<'m> {
@@ -58,6 +51,7 @@ pub struct Symplectic<'m> {
     /// Where the factors that the system holds were taken.
     factored: Factored,
     kept: Kept,
+    previous: Previous,
     /// Where substeps are tried.
     trial: State,
     /// Whether p_k is the projected momentum Ḿ q̇_k, or carried in the state's memory as printed.
@@ -120,6 +114,8 @@ impl<'m> Symplectic<'m> {
         let projector = Projector::new(mechanics)?;
         let system = NewtonSystem::new(mechanics, false)?;
         let zeros = || vec![0.0; n];
+        let kept = Kept::new(n, 0);
+        let previous = Previous::new(n, m, kept.end());
         Ok(Self {
             options,
             work: Work {
@@ -137,12 +133,13 @@ impl<'m> Symplectic<'m> {
                 taut_by_law: vec![false; sizes.switches],
             },
             factored: Factored { q: zeros(), delta: zeros(), ..Factored::default() },
-            kept: Kept::new(n, 0),
+            kept,
+            previous,
             trial: State {
                 q: zeros(),
                 v: zeros(),
                 lambda: vec![0.0; m],
-                memory: vec![0.0; Kept::new(n, 0).end()],
+                memory: vec![0.0; previous.end()],
                 ..State::default()
             },
             project: true,
@@ -157,308 +154,22 @@ impl<'m> Symplectic<'m> {
     #[must_use]
     pub fn carrying_momentum(mut self) -> Self {
         self.project = false;
-        self.kept = Kept::new(self.trial.q.len(), self.work.p.len());
-        self.trial.memory = vec![0.0; self.kept.end()];
+        let (n, m) = (self.trial.q.len(), self.trial.lambda.len());
+        self.kept = Kept::new(n, self.work.p.len());
+        self.previous = Previous::new(n, m, self.kept.end());
+        self.trial.memory = vec![0.0; self.previous.end()];
         self
     }
 
     /// Length of its states' memory.
     pub(crate) fn memory(&self) -> usize {
-        self.kept.end()
+        self.previous.end()
     }
 
     /// A stepper that also takes negative steps.
     pub(crate) fn either_way(mut self) -> Self {
         self.either_way = true;
         self
-    }
-
-    /// One implicit step from `state`, written back only if it converges. `last` accepts a frozen active set that
-    /// contradicts the law.
-    fn advance(&mut self, state: &mut State, h: f64, last: bool) -> Result<Converged, Failed> {
-        self.predict(state, h);
-        let resolution = 4.0 * f64::EPSILON * largest(&state.q);
-        let mut has_factors = self.recall(state, h);
-        let (mut frozen, mut iterations, mut factored) = (false, 0, 0);
-        let (mut before, mut slowest) = (f64::INFINITY, FASTEST);
-        let mut correction = f64::INFINITY;
-        loop {
-            let scale = self.residual(state, h, frozen);
-            let mut residual = self.system.largest(scale);
-            if !residual.is_finite() {
-                return Err(self.failed(Failure::NotFinite, iterations, scale));
-            }
-            let fell = residual / before;
-            if iterations > 0 {
-                slowest = slowest.max(fell);
-            }
-            // One more correction, whose residual need not be looked at.
-            let last_one = has_factors
-                && iterations > 0
-                && fell < SLOW
-                && slowest * residual <= POLISHED * self.options.tolerance;
-            if last_one {
-                iterations += 1;
-                self.system
-                    .apply()
-                    .map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
-                self.correct();
-                residual *= slowest;
-            }
-            // Rounding ends the descent at some residual below the tolerance.
-            let stands = residual <= self.options.tolerance && fell > SLOW;
-            if last_one || stands || residual <= POLISHED * self.options.tolerance || correction <= resolution
-            {
-                return self.accept(
-                    state,
-                    h,
-                    frozen,
-                    last,
-                    Converged { iterations, residual, frozen, forced: 0 },
-                    scale,
-                );
-            }
-            if iterations == self.options.max_iterations {
-                return Err(self.failed(Failure::NotConverged, iterations, scale));
-            }
-            if factored == self.options.freeze_after && !frozen && !self.work.taut.is_empty() {
-                frozen = true;
-                has_factors = false;
-                let Work { q_mid, v_mid, inputs, taut, .. } = &mut self.work;
-                let at = At { q: q_mid, v: v_mid, u: inputs, taut: None };
-                self.system.mechanics.active_set(at, taut);
-            }
-            has_factors &= fell <= SLOW || iterations == 0;
-            before = residual;
-            iterations += 1;
-            let solved = if has_factors {
-                self.system.apply()
-            } else {
-                factored += 1;
-                self.factor_and_solve(state, h, frozen)
-            };
-            solved.map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
-            has_factors = true;
-            correction = self.correct();
-        }
-    }
-
-    /// Takes a converged iterate, unless it contradicts the laws of cables held by a frozen active set.
-    fn accept(
-        &mut self,
-        state: &mut State,
-        h: f64,
-        frozen: bool,
-        last: bool,
-        converged: Converged,
-        scale: f64,
-    ) -> Result<Converged, Failed> {
-        let iterations = converged.iterations;
-        let forced = if frozen { self.contradictions() } else { 0 };
-        if forced > 0 && !last {
-            return Err(self.failed(Failure::NotConverged, iterations, scale));
-        }
-        self.finish(state, h).map_err(|error| self.failed(Failure::Projection(error), iterations, scale))?;
-        self.keep(state, h, frozen || iterations > KEEP_UP_TO);
-        Ok(Converged { frozen: frozen && forced == 0, forced, ..converged })
-    }
-
-    fn failed(&self, failure: Failure, iterations: u32, scale: f64) -> Failed {
-        Failed { failure, iterations, worst: self.system.worst(scale) }
-    }
-
-    /// Whether the system holds the factors that this step is to begin with; takes them where the state says.
-    fn recall(&mut self, state: &State, h: f64) -> bool {
-        let Some((t, q, delta)) = self.kept.get(state, h) else { return false };
-        let held = &self.factored;
-        if held.h == h && held.t == t && held.q == q && held.delta == delta {
-            return true;
-        }
-        let (w, mechanics) = (&mut self.work, self.system.mechanics);
-        let f = &mut self.factored;
-        (f.t, f.h) = (t, h);
-        f.q.copy_from_slice(q);
-        f.delta.copy_from_slice(delta);
-        // The matrix of that step, in the buffers that the residual fills again.
-        mechanics.inputs(t + 0.5 * h, &mut w.inputs);
-        for i in 0..f.q.len() {
-            w.q_end[i] = f.q[i] + f.delta[i];
-            w.q_mid[i] = f.q[i] + 0.5 * f.delta[i];
-            w.v_mid[i] = f.delta[i] / h;
-        }
-        self.system.set_upper(&f.q);
-        let done = self.factor(h, false);
-        self.system.set_upper(&state.q);
-        mechanics.inputs(state.t + 0.5 * h, &mut self.work.inputs);
-        done.is_ok()
-    }
-
-    /// Factors at the present iterate, notes where, and solves with every check.
-    fn factor_and_solve(&mut self, state: &State, h: f64, frozen: bool) -> Result<(), SparseError> {
-        let f = &mut self.factored;
-        (f.t, f.h) = (state.t, if frozen { 0.0 } else { h });
-        f.q.copy_from_slice(&state.q);
-        f.delta.copy_from_slice(&self.work.delta);
-        self.factor(h, frozen)?;
-        self.system.solve_checked()
-    }
-
-    fn factor(&mut self, h: f64, frozen: bool) -> Result<(), SparseError> {
-        let factors = Factors { mass: 1.0, stiffness: 0.25 * h * h, damping: 0.5 * h };
-        let Work { q_mid, v_mid, q_end, inputs, taut, nu, .. } = &self.work;
-        let at = At { q: q_mid, v: v_mid, u: inputs, taut: frozen.then_some(taut) };
-        self.system.factor(at, factors, q_end, nu)
-    }
-
-    /// Notes in the state what the next step starts from.
-    fn keep(&mut self, state: &mut State, h: f64, forget: bool) {
-        let f = &self.factored;
-        if forget || f.h != h {
-            self.kept.clear(state);
-        } else {
-            self.kept.set(state, f.t, f.h, &f.q, &f.delta);
-        }
-    }
-
-    /// Start of the iteration: Δ = h q̇_k, supports and inputs at their times, p_k and A(q_k).
-    fn predict(&mut self, state: &State, h: f64) {
-        let (w, mechanics) = (&mut self.work, self.system.mechanics);
-        w.q_end.copy_from_slice(&state.q);
-        w.v_end.copy_from_slice(&state.v);
-        mechanics.prescribe(state.t + h, &mut w.q_end, &mut w.v_end);
-        mechanics.inputs(state.t + 0.5 * h, &mut w.inputs);
-        for ((delta, end), q) in w.delta.iter_mut().zip(&w.q_end).zip(&state.q) {
-            *delta = end - q;
-        }
-        if self.project {
-            self.system.inertia.product(&state.v, &mut w.inertial);
-        } else {
-            let carried = w.p.len();
-            w.p.copy_from_slice(&state.memory[..carried]);
-        }
-        for &Run { coordinate, unknown, len } in self.system.layout.runs() {
-            let full = coordinate..coordinate + len;
-            w.delta[full.clone()].iter_mut().zip(&state.v[full.clone()]).for_each(|(d, v)| *d = h * v);
-            if self.project {
-                w.p[unknown..unknown + len].copy_from_slice(&w.inertial[full]);
-            }
-        }
-        for (nu, lambda) in w.nu.iter_mut().zip(&state.lambda) {
-            *nu = 0.5 * h * h * lambda;
-        }
-        self.system.set_upper(&state.q);
-    }
-
-    /// Residual (54) into the right-hand side; the largest term of its dynamic rows.
-    fn residual(&mut self, state: &State, h: f64, frozen: bool) -> f64 {
-        let Self { system, work: w, .. } = self;
-        let rate = 1.0 / h;
-        let points = w.q_end.iter_mut().zip(&mut w.q_mid).zip(&mut w.v_mid);
-        for (((end, mid), v), (q, delta)) in points.zip(state.q.iter().zip(&w.delta)) {
-            *end = q + delta;
-            *mid = q + 0.5 * delta;
-            *v = rate * delta;
-        }
-        let taut = frozen.then_some(w.taut.as_slice());
-        let at = At { q: &w.q_mid, v: &w.v_mid, u: &w.inputs, taut };
-        system.mechanics.force(at, &mut w.force);
-        system.spread_multipliers(&w.nu);
-        system.inertia.product(&w.delta, &mut w.inertial);
-        let half = 0.5 * h * h;
-        let mut scale = 0.0_f64;
-        for &Run { coordinate, unknown, len } in system.layout.runs() {
-            let full = coordinate..coordinate + len;
-            let rows = system.rhs[unknown..unknown + len].iter_mut().zip(&w.p[unknown..]);
-            let terms = w.inertial[full.clone()].iter().zip(&w.force[full.clone()]);
-            for (((r, p), (inertial, force)), reaction) in rows.zip(terms).zip(&system.constraint_force[full])
-            {
-                let (momentum, force) = (h * p, half * force);
-                let term =
-                    larger(larger(inertial.abs(), momentum.abs()), larger(force.abs(), reaction.abs()));
-                scale = larger(scale, term);
-                *r = inertial - momentum - force - reaction;
-            }
-        }
-        system.constraint_rows(&w.q_end);
-        scale
-    }
-
-    /// Applies the correction; its largest coordinate change.
-    fn correct(&mut self) -> f64 {
-        let Self { system, work: w, .. } = self;
-        let (rhs, multipliers) = system.rhs.split_at(system.layout.unknowns());
-        let mut largest = 0.0_f64;
-        for &Run { coordinate, unknown, len } in system.layout.runs() {
-            for (delta, change) in w.delta[coordinate..coordinate + len].iter_mut().zip(&rhs[unknown..]) {
-                *delta -= change;
-                largest = larger(largest, change.abs());
-            }
-        }
-        for (nu, change) in w.nu.iter_mut().zip(multipliers) {
-            *nu -= change;
-        }
-        largest
-    }
-
-    /// Number of cables whose law contradicts the frozen active set at the solution.
-    fn contradictions(&mut self) -> u32 {
-        let Work { q_mid, v_mid, inputs, taut, taut_by_law, .. } = &mut self.work;
-        let at = At { q: q_mid, v: v_mid, u: inputs, taut: None };
-        self.system.mechanics.active_set(at, taut_by_law);
-        taut.iter().zip(taut_by_law).filter(|(a, b)| *a != *b).count() as u32
-    }
-
-    /// Momentum (53b), its projection, and the new state. The force is that of the iterate before the last correction, which
-    /// moved it by less than its rounding.
-    fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
-        let Self { system, projector, work: w, .. } = self;
-        for ((end, q), delta) in w.q_end.iter_mut().zip(&state.q).zip(&w.delta) {
-            *end = q + delta;
-        }
-        for &Run { coordinate, len, .. } in system.layout.runs() {
-            let run = coordinate..coordinate + len;
-            w.v_end[run.clone()].iter_mut().zip(&w.delta[run]).for_each(|(v, delta)| *v = delta / h);
-        }
-        // Momentum of the supports' mean velocity against that at the end.
-        let moving = system.mechanics.features().moving_supports;
-        if moving {
-            for i in 0..w.delta.len() {
-                w.v_mid[i] = w.delta[i] / h - w.v_end[i];
-            }
-            system.inertia.product(&w.v_mid, &mut w.inertial);
-        } else {
-            w.inertial.fill(0.0);
-        }
-        projector.velocity_after_impulse(
-            &w.q_end,
-            |jacobian, impulse| {
-                system.spread(jacobian, &w.nu);
-                let rate = 1.0 / h;
-                for &Run { coordinate, unknown, len } in system.layout.runs() {
-                    let full = coordinate..coordinate + len;
-                    let forces = w.force[full.clone()].iter().zip(&system.constraint_force[full.clone()]);
-                    let impulses = impulse[unknown..unknown + len].iter_mut().zip(&w.inertial[full]);
-                    for ((impulse, supports), (force, reaction)) in impulses.zip(forces) {
-                        *impulse = 0.5 * h * force + rate * reaction + supports;
-                    }
-                }
-            },
-            &mut w.v_end,
-        )?;
-        if !self.project {
-            // (53b) itself.
-            for (k, &i) in system.mechanics.free().iter().enumerate() {
-                let impulse = 0.5 * h * w.force[i] + system.constraint_force[i] / h;
-                state.memory[k] = system.inertia.row(i, &w.delta) / h + impulse;
-            }
-        }
-        state.advance_time(h);
-        state.q.copy_from_slice(&w.q_end);
-        state.v.copy_from_slice(&w.v_end);
-        for (lambda, nu) in state.lambda.iter_mut().zip(&w.nu) {
-            *lambda = 2.0 / (h * h) * nu;
-        }
-        Ok(())
     }
 }
 
@@ -474,7 +185,7 @@ impl Stepper for Symplectic<'_> {
             let row = |&i: &usize| self.system.inertia.row(i, &state.v);
             state.memory = self.system.mechanics.free().iter().map(row).collect();
         }
-        state.memory.resize(self.kept.end(), 0.0);
+        state.memory.resize(self.previous.end(), 0.0);
         Ok(state)
     }
 
@@ -541,8 +252,4 @@ impl Symplectic<'_> {
     fn fallbacks(&self) -> u64 {
         self.system.fallbacks() + self.projector.fallbacks()
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |largest, x| larger(largest, x.abs()))
 }

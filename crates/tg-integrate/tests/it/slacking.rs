@@ -139,6 +139,7 @@ fn frozen_active_set_that_agrees_is_counted_and_changes_nothing() {
     let options = NewtonOptions { freeze_after: 1, ..NewtonOptions::default() };
     let summary = run(&mut Symplectic::new(&t.model, options).unwrap(), &mut frozen, 1e-3, 0.6);
     println!("{summary:?}");
-    assert!(summary.frozen > 500 && summary.forced == 0, "{summary:?}");
+    // Steps that kept factors serve are not frozen.
+    assert!(summary.frozen > 250 && summary.forced == 0, "{summary:?}");
     assert!(distance(&state.q, &frozen.q) < 1e-6);
 }
