@@ -5,10 +5,11 @@
 
 use crate::state::State;
 
-/// Numbers before the vectors: time and length of the step whose factors are kept. A length of zero means none.
-const HEAD: usize = 2;
+/// Numbers before the vectors: time and length of the step whose factors are kept, and its rounding. A length of zero means
+/// none.
+const HEAD: usize = 3;
 
-/// This part of the memory of a state of `n` full coordinates: t, h, then q and Δ.
+/// This part of the memory of a state of `n` full coordinates: t, h, rounding, then q and Δ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kept {
     n: usize,
@@ -33,10 +34,20 @@ impl Kept {
         (memory[1] == h).then_some((memory[0], q, delta))
     }
 
-    pub(crate) fn set(self, state: &mut State, t: f64, h: f64, q: &[f64], delta: &[f64]) {
+    /// The residual at which the step stood whose factors are kept.
+    pub(crate) fn rounding(self, state: &State) -> f64 {
+        state.memory[self.offset + 2]
+    }
+
+    /// Notes factors: time, step and rounding, q and Δ. Those of the time and step that it holds are the same, which
+    /// [`Kept::get`] was to find out.
+    pub(crate) fn set(self, state: &mut State, head: (f64, f64, f64), q: &[f64], delta: &[f64]) {
         let end = self.end();
         let memory = &mut state.memory[self.offset..end];
-        (memory[0], memory[1]) = (t, h);
+        if memory[0] == head.0 && memory[1] == head.1 {
+            return;
+        }
+        (memory[0], memory[1], memory[2]) = head;
         memory[HEAD..HEAD + self.n].copy_from_slice(q);
         memory[HEAD + self.n..].copy_from_slice(delta);
     }

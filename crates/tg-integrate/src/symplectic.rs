@@ -83,6 +83,8 @@ struct Factored {
     t: f64,
     /// Zero for factors that serve one step only.
     h: f64,
+    /// The residual at which it stood, zero if it did not.
+    rounding: f64,
     q: Vec<f64>,
     delta: Vec<f64>,
 }
@@ -199,15 +201,22 @@ impl Stepper for Symplectic<'_> {
         // The trial state leaves `self` while `advance` borrows it.
         let mut trial = std::mem::take(&mut self.trial);
         for halving in 0..=self.options.halvings {
-            trial.copy_from(state);
             let last = halving == self.options.halvings;
-            match self.advance_in(&mut trial, h, 1 << halving, last, &mut report) {
-                Ok(()) => {
+            let (substeps, report) = (1 << halving, &mut report);
+            // One step leaves the state as it is when it fails; of several some may succeed before.
+            let done = if halving == 0 {
+                self.advance_in(state, h, substeps, last, report)
+            } else {
+                trial.copy_from(state);
+                let done = self.advance_in(&mut trial, h, substeps, last, report);
+                if done.is_ok() {
                     std::mem::swap(state, &mut trial);
-                    failed = None;
-                    break;
                 }
-                Err(failure) => failed = Some(failure),
+                done
+            };
+            failed = done.err();
+            if failed.is_none() {
+                break;
             }
         }
         self.trial = trial;

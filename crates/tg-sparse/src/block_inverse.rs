@@ -13,12 +13,16 @@ use crate::kernels::{Chunk, LANES, add_multiple, chunks};
 use crate::static_lu::Factored;
 use crate::symbolic::Symbolic;
 
-/// G, then P and W of each front, by columns that are padded to whole chunks.
+/// G, P and W of each front, by columns that are padded to whole chunks, in the order in which solves read them: of a large
+/// system that is what they wait for.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockInverse {
-    values: Vec<Chunk>,
-    /// Where the blocks of each front start.
-    start: Vec<u32>,
+    /// G of each front.
+    left: Vec<Chunk>,
+    /// P and W of each front, from the last.
+    right: Vec<Chunk>,
+    /// Where the blocks of each front start in both.
+    start: Vec<(u32, u32)>,
     /// x₁ and −x₂ of one front.
     local: Vec<f64>,
     /// The rows of a front while its blocks are made.
@@ -27,16 +31,20 @@ pub(crate) struct BlockInverse {
 
 impl BlockInverse {
     pub(crate) fn new(symbolic: &Symbolic) -> Self {
-        let mut start = vec![0];
-        let (mut len, mut largest) = (0, 0);
-        for front in &symbolic.fronts {
-            let (w, r) = (front.width, front.rest_len());
-            len += w * chunks(r) + (w + r) * chunks(w);
-            largest = largest.max(w * (w + r));
-            start.push(len as u32);
+        let mut start = vec![(0, 0); symbolic.fronts.len()];
+        let (mut left, mut right, mut largest) = (0, 0, 0);
+        for (start, front) in start.iter_mut().zip(&symbolic.fronts) {
+            start.0 = left as u32;
+            left += front.width * chunks(front.rest_len());
+            largest = largest.max(front.width * (front.width + front.rest_len()));
+        }
+        for (start, front) in start.iter_mut().zip(&symbolic.fronts).rev() {
+            start.1 = right as u32;
+            right += (front.width + front.rest_len()) * chunks(front.width);
         }
         Self {
-            values: vec![[0.0; LANES]; len],
+            left: vec![[0.0; LANES]; left],
+            right: vec![[0.0; LANES]; right],
             start,
             local: vec![0.0; symbolic.longest],
             rows: vec![0.0; largest],
@@ -49,8 +57,9 @@ impl BlockInverse {
             let (w, r, stride) = (front.width, front.rest_len(), front.stride());
             let panel = &factored.panels[front.panel..front.panel + w * stride];
             let inverse = &factored.inverse[front.first..front.first + w];
-            let blocks = &mut self.values[self.start[at] as usize..self.start[at + 1] as usize];
-            let (left, right) = blocks.split_at_mut(w * chunks(r));
+            let (left, right) = self.start[at];
+            let left = &mut self.left[left as usize..][..w * chunks(r)];
+            let right = &mut self.right[right as usize..][..(w + r) * chunks(w)];
             // Rows of [L₁₁⁻¹ | U₁₂].
             let rows = &mut self.rows[..w * (w + r)];
             for k in 0..w {
@@ -91,13 +100,13 @@ impl BlockInverse {
 
     /// Solves in elimination order.
     pub(crate) fn apply(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        let Self { values, start, local, .. } = self;
+        let Self { left, right, start, local, .. } = self;
         for (at, front) in symbolic.fronts.iter().enumerate() {
             let (w, r) = (front.width, front.rest_len());
             if r == 0 {
                 continue;
             }
-            let blocks = &values[start[at] as usize..][..w * chunks(r)];
+            let blocks = &left[start[at].0 as usize..][..w * chunks(r)];
             let sums = &mut local[..r];
             product(blocks, chunks(r), &x[front.first..front.first + w], sums);
             for (&i, sum) in symbolic.rest[front.rest.clone()].iter().zip(sums) {
@@ -106,7 +115,7 @@ impl BlockInverse {
         }
         for (at, front) in symbolic.fronts.iter().enumerate().rev() {
             let (w, r) = (front.width, front.rest_len());
-            let blocks = &values[start[at] as usize + w * chunks(r)..start[at + 1] as usize];
+            let blocks = &right[start[at].1 as usize..][..(w + r) * chunks(w)];
             let own = front.first..front.first + w;
             local[..w].copy_from_slice(&x[own.clone()]);
             for (value, &i) in local[w..w + r].iter_mut().zip(&symbolic.rest[front.rest.clone()]) {

@@ -60,6 +60,15 @@ const TOLERANCES: &[Dial] = &[
     Dial::Tolerance(1e-8),
 ];
 
+/// What a step counts, and what is compared with the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Counts {
+    /// Newton iterations; steps are compared.
+    Iterations,
+    /// Evaluations of the accelerations, which are compared one by one: schemes differ in how many make a step.
+    Evaluations,
+}
+
 /// A scheme with its settings.
 pub(crate) struct Scheme {
     pub(crate) name: &'static str,
@@ -67,6 +76,8 @@ pub(crate) struct Scheme {
     pub(crate) dials: &'static [Dial],
     /// Variant of the floor program that does the same.
     pub(crate) floor: Option<&'static str>,
+    /// What a step counts.
+    pub(crate) counts: Counts,
     pub(crate) make: Make,
 }
 
@@ -78,12 +89,14 @@ pub(crate) const SCHEMES: [Scheme; 6] = [
         name: "symplectic",
         dials: STEPS,
         floor: Some("imp 10 kept, 1e-12"),
+        counts: Counts::Iterations,
         make: |mechanics, _| Ok(Box::new(Symplectic::new(mechanics, NewtonOptions::default())?)),
     },
     Scheme {
         name: "symplectic, 1e-10",
         dials: STEPS,
         floor: Some("imp 10 kept, 1e-10"),
+        counts: Counts::Iterations,
         make: |mechanics, _| {
             let options = NewtonOptions { tolerance: 1e-10, ..NewtonOptions::default() };
             Ok(Box::new(Symplectic::new(mechanics, options)?))
@@ -93,24 +106,28 @@ pub(crate) const SCHEMES: [Scheme; 6] = [
         name: "generalised-α, 0.7",
         dials: STEPS,
         floor: None,
+        counts: Counts::Iterations,
         make: |mechanics, _| Ok(Box::new(GeneralizedAlpha::new(mechanics, 0.7, NewtonOptions::default())?)),
     },
     Scheme {
         name: "leapfrog",
         dials: STEPS,
         floor: Some("shake, 2 iterations"),
+        counts: Counts::Iterations,
         make: |mechanics, _| Ok(Box::new(Leapfrog::new(mechanics, NewtonOptions::default())?)),
     },
     Scheme {
         name: "Dormand–Prince 5",
         dials: TOLERANCES,
         floor: Some("exp, RK4"),
+        counts: Counts::Evaluations,
         make: |mechanics, dial| explicit(mechanics, dial, EmbeddedPair::DormandPrince5),
     },
     Scheme {
         name: "Dormand–Prince 8",
         dials: TOLERANCES,
-        floor: None,
+        floor: Some("exp, RK4"),
+        counts: Counts::Evaluations,
         make: |mechanics, dial| explicit(mechanics, dial, EmbeddedPair::DormandPrince8),
     },
 ];

@@ -3,7 +3,7 @@
 use super::floor::{Floor, VARIANTS};
 use super::page::{digits, table};
 use super::scene::{MastRun, Scene};
-use super::scheme::{Dial, SCHEMES};
+use super::scheme::{Counts, Dial, SCHEMES};
 use super::stepping::{Cost, cost};
 use super::{Options, memory, parts};
 use crate::TaskError;
@@ -59,10 +59,20 @@ impl Measured {
         Ok(Self { degrees_of_freedom: scene.degrees_of_freedom, costs, floor: of_floor })
     }
 
-    /// µs per step of the floor's variant of this name.
-    fn floor(&self, name: Option<&str>) -> Option<f64> {
-        let at = VARIANTS.iter().position(|variant| Some(variant.name) == name)?;
-        self.floor.get(at).copied()
+    /// How many times as long as the floor's a step of scheme k takes, or an evaluation in it.
+    fn times_floor(&self, k: usize) -> f64 {
+        let variant = VARIANTS.iter().position(|variant| Some(variant.name) == SCHEMES[k].floor);
+        let Some((at, &floor)) = variant.and_then(|at| Some((at, self.floor.get(at)?))) else {
+            return f64::NAN;
+        };
+        match SCHEMES[k].counts {
+            Counts::Iterations => self.costs[k].micros / floor,
+            Counts::Evaluations => self.per_evaluation(k) / (floor / VARIANTS[at].evaluations),
+        }
+    }
+
+    fn per_evaluation(&self, k: usize) -> f64 {
+        self.costs[k].micros / self.costs[k].iterations
     }
 }
 
@@ -82,16 +92,19 @@ fn steps(options: &Options, stages: &[usize], floor: Option<&Floor>) -> Result<S
             .map(|(micros, m)| 1e3 * micros / m.degrees_of_freedom as f64)
             .collect();
         rows.push(row("· ns per degree of freedom", &per_freedom, ""));
-        let iterations: Vec<f64> = measured.iter().map(|m| m.costs[k].iterations).collect();
-        if iterations.iter().any(|&iterations| iterations > 0.0) {
-            rows.push(row("· Newton iterations", &iterations, ""));
+        match scheme.counts {
+            Counts::Iterations => {
+                let iterations: Vec<f64> = measured.iter().map(|m| m.costs[k].iterations).collect();
+                rows.push(row("· Newton iterations", &iterations, ""));
+            }
+            Counts::Evaluations => {
+                let micros: Vec<f64> = measured.iter().map(|m| m.per_evaluation(k)).collect();
+                rows.push(row("· µs per evaluation", &micros, ""));
+            }
         }
         let allocations: Vec<f64> = measured.iter().map(|m| m.costs[k].allocations as f64).collect();
         rows.push(row("· allocations, all steps", &allocations, ""));
-        let ratios: Vec<f64> = measured
-            .iter()
-            .map(|m| m.floor(scheme.floor).map_or(f64::NAN, |floor| m.costs[k].micros / floor))
-            .collect();
+        let ratios: Vec<f64> = measured.iter().map(|m| m.times_floor(k)).collect();
         if ratios.iter().any(|ratio| ratio.is_finite()) {
             rows.push(row(&format!("· times the floor, {}", scheme.floor.unwrap_or("")), &ratios, ""));
         }

@@ -9,15 +9,14 @@ use crate::system::{Factors, Failure, larger};
 
 /// The first correction removes most of a smooth residual; those after it are not trusted to do better than this.
 const FASTEST: f64 = 0.02;
-/// What the last correction, whose residual is not looked at, is to leave of the tolerance. With a tenth of this, which rounding
-/// does not always let be reached, the mast of 32 stages takes a sixth longer; momenta are kept as well.
+/// What the last correction, whose residual is not looked at, is to leave of the tolerance.
 const POLISHED: f64 = 1e-2;
-/// Part of the last digit of q that corrections may leave.
-const RESOLVED: f64 = 0.08;
-/// A residual that falls less than this in an iteration asks for new factors, unless it is within the tolerance.
+/// A residual that falls less than this in an iteration asks for new factors.
 const SLOW: f64 = 0.1;
-/// One that falls less than this within the tolerance is rounding.
+/// One that falls less than this with new factors is rounding.
 const STANDS: f64 = 0.5;
+/// Steps differ in their rounding by no more than this.
+const ROUNDING: f64 = 4.0;
 /// A step that took more iterations leaves the next one without factors. On the masts of 8, 32 and 128 stages five cost a
 /// twentieth to an eighth less than four, and no more than six.
 const KEEP_UP_TO: u32 = 5;
@@ -27,8 +26,7 @@ impl Symplectic<'_> {
     /// contradicts the law.
     pub(super) fn advance(&mut self, state: &mut State, h: f64, last: bool) -> Result<Converged, Failed> {
         self.predict(state, h);
-        // What a correction leaves is not to be seen in q, nor in the velocity Δ/h.
-        let resolution = RESOLVED * f64::EPSILON * largest(&state.q);
+        let resolution = 4.0 * f64::EPSILON * largest(&state.q);
         let mut has_factors = self.recall(state, h);
         let (mut frozen, mut iterations, mut factored) = (false, 0, 0);
         let (mut before, mut slowest) = (f64::INFINITY, FASTEST);
@@ -43,8 +41,9 @@ impl Symplectic<'_> {
             if iterations > 0 {
                 slowest = slowest.max(fell);
             }
-            // One more correction, whose residual need not be looked at.
-            let last_one = has_factors
+            // One more correction, whose residual need not be looked at. Where factors are new it is: what stands then is
+            // rounding, by which the next steps know it. Old factors may stand as well.
+            let last_one = factored == 0
                 && iterations > 0
                 && fell < SLOW
                 && slowest * residual <= POLISHED * self.options.tolerance;
@@ -56,14 +55,14 @@ impl Symplectic<'_> {
                 self.correct();
                 residual *= slowest;
             }
-            // Rounding ends the descent at some residual below the tolerance.
-            let is_small = residual <= self.options.tolerance;
-            let stands = is_small && fell > STANDS;
-            if last_one
-                || stands
-                || residual <= POLISHED * self.options.tolerance
-                || slowest * correction <= resolution
-            {
+            let is_small = residual <= self.options.tolerance || correction <= resolution;
+            let stands = is_small && factored > 0 && fell > STANDS;
+            if stands {
+                self.factored.rounding = residual;
+            }
+            let polished = factored > 0 && residual <= POLISHED * self.options.tolerance;
+            let rounding = is_small && residual <= ROUNDING * self.factored.rounding;
+            if last_one || stands || polished || rounding {
                 return self.accept(
                     state,
                     h,
@@ -83,7 +82,8 @@ impl Symplectic<'_> {
                 let at = At { q: q_mid, v: v_mid, u: inputs, taut: None };
                 self.system.mechanics.active_set(at, taut);
             }
-            has_factors &= fell <= SLOW || iterations == 0 || is_small;
+            // New factors serve until nothing falls any more.
+            has_factors &= fell <= SLOW || iterations == 0 || (is_small && factored > 0);
             before = residual;
             iterations += 1;
             let solved = if has_factors {
@@ -129,9 +129,10 @@ impl Symplectic<'_> {
         if held.h == h && held.t == t && held.q == q && held.delta == delta {
             return true;
         }
+        let rounding = self.kept.rounding(state);
         let (w, mechanics) = (&mut self.work, self.system.mechanics);
         let f = &mut self.factored;
-        (f.t, f.h) = (t, h);
+        (f.t, f.h, f.rounding) = (t, h, rounding);
         f.q.copy_from_slice(q);
         f.delta.copy_from_slice(delta);
         // The matrix of that step, in the buffers that the residual fills again.
@@ -151,7 +152,7 @@ impl Symplectic<'_> {
     /// Factors at the present iterate, notes where, and solves with every check.
     fn factor_and_solve(&mut self, state: &State, h: f64, frozen: bool) -> Result<(), SparseError> {
         let f = &mut self.factored;
-        (f.t, f.h) = (state.t, if frozen { 0.0 } else { h });
+        (f.t, f.h, f.rounding) = (state.t, if frozen { 0.0 } else { h }, 0.0);
         f.q.copy_from_slice(&state.q);
         f.delta.copy_from_slice(&self.work.delta);
         self.factor(h, frozen)?;
@@ -171,7 +172,7 @@ impl Symplectic<'_> {
         if forget || f.h != h {
             self.kept.clear(state);
         } else {
-            self.kept.set(state, f.t, f.h, &f.q, &f.delta);
+            self.kept.set(state, (f.t, f.h, f.rounding), &f.q, &f.delta);
         }
     }
 }
