@@ -8,10 +8,15 @@
 //! ```
 //! Triangular solves wait for one unknown after the other; products do not. The explicit inverse costs as much as the
 //! factorisation, and some digits where a block is ill-conditioned: only iterations that check their own residual use it.
+//! They correct an error that is known to a few digits by factors that are a little off, so that single precision serves
+//! as well: half of the memory to read, which large systems wait for, and half of the arithmetic.
 
-use crate::kernels::{Chunk, LANES, add_multiple, chunks};
+use crate::kernels::{LANES, add_multiple, chunks};
 use crate::static_lu::Factored;
 use crate::symbolic::Symbolic;
+
+/// As many numbers as the loops over padded columns take at a time.
+type Chunk = [f32; LANES];
 
 /// G, P and W of each front, by columns that are padded to whole chunks, in the order in which solves read them: of a large
 /// system that is what they wait for.
@@ -23,8 +28,11 @@ pub(crate) struct BlockInverse {
     right: Vec<Chunk>,
     /// Where the blocks of each front start in both.
     start: Vec<(u32, u32)>,
-    /// x₁ and −x₂ of one front.
-    local: Vec<f64>,
+    /// x₁ and −x₂ of one front, and what is subtracted from x₂.
+    local: Vec<f32>,
+    sums: Vec<f32>,
+    /// A column of G while it is made.
+    column: Vec<f64>,
     /// The rows of a front while its blocks are made.
     rows: Vec<f64>,
 }
@@ -47,6 +55,8 @@ impl BlockInverse {
             right: vec![[0.0; LANES]; right],
             start,
             local: vec![0.0; symbolic.longest],
+            sums: vec![0.0; symbolic.longest],
+            column: vec![0.0; symbolic.longest],
             rows: vec![0.0; largest],
         }
     }
@@ -74,11 +84,14 @@ impl BlockInverse {
             }
             // G = L₂₁ L₁₁⁻¹ by columns.
             if r > 0 {
-                for (c, column) in left.chunks_exact_mut(chunks(r)).enumerate() {
-                    let column = &mut column.as_flattened_mut()[..r];
+                for (c, target) in left.chunks_exact_mut(chunks(r)).enumerate() {
+                    let column = &mut self.column[..r];
                     column.copy_from_slice(&panel[c * stride + w + r..][..r]);
                     for k in c + 1..w {
                         add_multiple(column, &panel[k * stride + w + r..][..r], rows[k * (w + r) + c]);
+                    }
+                    for (target, g) in target.as_flattened_mut().iter_mut().zip(column) {
+                        *target = *g as f32;
                     }
                 }
             }
@@ -92,42 +105,49 @@ impl BlockInverse {
             }
             for (k, row) in rows.chunks_exact(w + r).enumerate() {
                 for (column, x) in right.chunks_exact_mut(chunks(w)).zip(row) {
-                    column.as_flattened_mut()[k] = *x;
+                    column.as_flattened_mut()[k] = *x as f32;
                 }
             }
         }
     }
 
-    /// Solves in elimination order.
+    /// Solves in elimination order. The largest component should be near one: single precision has a short range.
     pub(crate) fn apply(&mut self, symbolic: &Symbolic, x: &mut [f64]) {
-        let Self { left, right, start, local, .. } = self;
+        let Self { left, right, start, local, sums, .. } = self;
         for (at, front) in symbolic.fronts.iter().enumerate() {
             let (w, r) = (front.width, front.rest_len());
             if r == 0 {
                 continue;
             }
             let blocks = &left[start[at].0 as usize..][..w * chunks(r)];
-            let sums = &mut local[..r];
-            product(blocks, chunks(r), &x[front.first..front.first + w], sums);
-            for (&i, sum) in symbolic.rest[front.rest.clone()].iter().zip(sums) {
-                x[i as usize] -= *sum;
+            for (local, x) in local.iter_mut().zip(&x[front.first..front.first + w]) {
+                *local = *x as f32;
+            }
+            product(blocks, chunks(r), &local[..w], &mut sums[..r]);
+            for (&i, sum) in symbolic.rest[front.rest.clone()].iter().zip(&*sums) {
+                x[i as usize] -= f64::from(*sum);
             }
         }
         for (at, front) in symbolic.fronts.iter().enumerate().rev() {
             let (w, r) = (front.width, front.rest_len());
             let blocks = &right[start[at].1 as usize..][..(w + r) * chunks(w)];
             let own = front.first..front.first + w;
-            local[..w].copy_from_slice(&x[own.clone()]);
-            for (value, &i) in local[w..w + r].iter_mut().zip(&symbolic.rest[front.rest.clone()]) {
-                *value = -x[i as usize];
+            for (local, x) in local.iter_mut().zip(&x[own.clone()]) {
+                *local = *x as f32;
             }
-            product(blocks, chunks(w), &local[..w + r], &mut x[own]);
+            for (local, &i) in local[w..w + r].iter_mut().zip(&symbolic.rest[front.rest.clone()]) {
+                *local = -x[i as usize] as f32;
+            }
+            product(blocks, chunks(w), &local[..w + r], &mut sums[..w]);
+            for (x, sum) in x[own].iter_mut().zip(&*sums) {
+                *x = f64::from(*sum);
+            }
         }
     }
 }
 
 /// `out ← B x` with the columns of B padded to `rows` chunks.
-fn product(blocks: &[Chunk], rows: usize, x: &[f64], out: &mut [f64]) {
+fn product(blocks: &[Chunk], rows: usize, x: &[f32], out: &mut [f32]) {
     match rows {
         1 => in_registers::<1>(blocks, x, out),
         2 => in_registers::<2>(blocks, x, out),
@@ -143,7 +163,7 @@ fn product(blocks: &[Chunk], rows: usize, x: &[f64], out: &mut [f64]) {
 }
 
 #[inline(always)]
-fn in_registers<const R: usize>(blocks: &[Chunk], x: &[f64], out: &mut [f64]) {
+fn in_registers<const R: usize>(blocks: &[Chunk], x: &[f32], out: &mut [f32]) {
     let mut sums = [[0.0; LANES]; R];
     for (column, x) in blocks.as_chunks::<R>().0.iter().zip(x) {
         for (sum, b) in sums.iter_mut().zip(column) {

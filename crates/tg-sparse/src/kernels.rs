@@ -7,8 +7,6 @@ pub(crate) const TILE: usize = 4;
 /// Numbers that the loops over padded rows and columns take at a time.
 pub(crate) const LANES: usize = 4;
 
-pub(crate) type Chunk = [f64; LANES];
-
 /// Chunks that hold so many numbers.
 pub(crate) fn chunks(len: usize) -> usize {
     len.div_ceil(LANES)

@@ -244,7 +244,7 @@ impl SaddleSystem {
     }
 
     /// Applies the factors of the last [`factor`](Self::factor) as they are, whatever values were set since, and checks
-    /// nothing: the correction of an iteration that looks at its own residual. The first call after a factorisation does
+    /// nothing: the correction of an iteration that looks at its own residual, exact to some six digits. The first call after a factorisation does
     /// that work once more, the others take a third of a [`solve`](Self::solve). `rhs` holds `[f; g]` on entry and
     /// `[x; y]` on return.
     ///
@@ -258,8 +258,12 @@ impl SaddleSystem {
         assert_eq!(rhs.len(), self.pattern.size(), "length of the right-hand side");
         let Self { pattern, lu, vectors, blocks, has_blocks, .. } = self;
         let (order, x) = (&pattern.symbolic.order, &mut vectors.solution);
+        let largest = rhs.iter().fold(0.0, |a: f64, b| if b.abs() > a { b.abs() } else { a });
+        if largest == 0.0 {
+            return if self.factors == Factors::None { Err(SparseError::NotFactored) } else { Ok(()) };
+        }
         for (x, &variable) in x.iter_mut().zip(order) {
-            *x = rhs[variable as usize];
+            *x = rhs[variable as usize] / largest;
         }
         match self.factors {
             Factors::None => return Err(SparseError::NotFactored),
@@ -280,7 +284,7 @@ impl SaddleSystem {
             Factors::Pivoting => return Err(SparseError::NotFactored),
         }
         for (x, &variable) in x.iter().zip(order) {
-            rhs[variable as usize] = *x;
+            rhs[variable as usize] = largest * x;
         }
         self.counts.solves += 1;
         Ok(())
