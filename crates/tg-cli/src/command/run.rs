@@ -11,7 +11,7 @@ mod trial;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tg_integrate::{Ended, Run as Integration};
+use tg_integrate::Run as Integration;
 use tg_report::{Existing, Formats, Kind, Manifest, Results, ResultsWriter, write_glb, write_vtk};
 use tg_scene::{Format, RunSettings, Structure};
 
@@ -27,7 +27,7 @@ use outcome::counts;
 use recording::{Checkpoint, Recording};
 
 pub(crate) use method::Method;
-pub(crate) use outcome::doubts;
+pub(crate) use outcome::{doubts, ended};
 
 pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
     let loaded = Loaded::new(&arguments.scene)?;
@@ -114,11 +114,7 @@ fn simulate<const D: usize>(
         .observe(&mut recording)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
-    let (summary, why) = match outcome {
-        Ok(summary) if summary.ended == Ended::Cancelled => (summary, Some("stopped by Ctrl-C".to_string())),
-        Ok(summary) => (summary, None),
-        Err(error) => (error.summary, Some(error.to_string())),
-    };
+    let (summary, why) = ended(outcome);
     let mut warnings = remarks(structure);
     warnings.extend(doubts(&summary, &method));
     let counts = counts(&summary, &state);

@@ -1,11 +1,20 @@
 //! What a run counts, and what makes its result doubtful.
 
 use serde_json::{Value, json};
-use tg_integrate::{State, Summary};
+use tg_integrate::{Ended, RunError, State, Summary};
 
 use super::method::Method;
 
-/// The totals of a run.
+/// The totals of a run, and why it did not come to its end.
+pub(crate) fn ended(outcome: Result<Summary, RunError>) -> (Summary, Option<String>) {
+    match outcome {
+        Ok(summary) if summary.ended == Ended::Cancelled => (summary, Some("stopped by Ctrl-C".to_string())),
+        Ok(summary) => (summary, None),
+        Err(error) => (error.summary, Some(error.to_string())),
+    }
+}
+
+/// The totals of a run for its document.
 pub(super) fn counts(summary: &Summary, state: &State) -> Value {
     json!({
         "end": state.t,

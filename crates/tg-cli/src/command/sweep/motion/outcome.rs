@@ -1,14 +1,14 @@
 //! What the motion at one value of the parameter comes to.
 
 use serde::Serialize;
-use tg_integrate::{Ended, Run as Integration};
+use tg_integrate::Run as Integration;
 use tg_scene::{RunSettings, Structure};
 
 use super::super::{Dimensioned, at};
 use super::extremes::{Extreme, Extremes};
 use crate::answer::Failure;
 use crate::args::Sweep;
-use crate::command::run::{Method, doubts};
+use crate::command::run::{Method, doubts, ended};
 use crate::loading::Loaded;
 use crate::progress::INTERRUPTED;
 
@@ -109,11 +109,7 @@ fn simulate<const D: usize>(
         .observe(&mut extremes)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
-    let (summary, failure) = match outcome {
-        Ok(summary) if summary.ended == Ended::Cancelled => (summary, Some("stopped by Ctrl-C".to_string())),
-        Ok(summary) => (summary, None),
-        Err(error) => (error.summary, Some(error.to_string())),
-    };
+    let (summary, failure) = ended(outcome);
     let seen = Seen {
         end: state.t,
         steps: summary.steps,
