@@ -23,6 +23,8 @@ const STALLED: f64 = 1e-4;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Products with `W⁻¹K` that estimate the largest |ν|; it is a scale only.
 const POWER_STEPS: u32 = 12;
+/// Solves that tell about where the first of positive eigenvalues is.
+const INVERSE_STEPS: u32 = 4;
 /// Eigenvalues closer than this part of each other's size are one multiple eigenvalue.
 const CLUSTER: f64 = 1e-6;
 /// The first distance of the shift from zero, in units of the zero limit.
@@ -31,14 +33,9 @@ const FIRST_SHIFT: f64 = 4.0;
 struct Shifted<'a, 'm> {
     inverse: &'a mut ShiftInvert<'m>,
     metric: Option<&'a Entries>,
-    size: usize,
 }
 
 impl Operator for Shifted<'_, '_> {
-    fn size(&self) -> usize {
-        self.size
-    }
-
     fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
         self.inverse.solve(wx, y)
     }
@@ -77,12 +74,15 @@ pub(crate) fn lowest(
     if wanted == 0 {
         return Ok(Spectrum { pairs: Vec::new(), counts, zero_limit, largest, method: Method::Sparse });
     }
-    let shift = shift_below_all(&mut inverse, &counts, zero_limit, largest)?;
-    inverse.factor_shifted(shift)?;
     let metric = (options.metric == Metric::Mass).then_some(&tangent.mass);
-    let mut krylov = Krylov::new(freedom);
+    let shift = if up_to_zero == 0 {
+        shift_below_positive(&mut Shifted { inverse: &mut inverse, metric }, n, zero_limit)?
+    } else {
+        shift_below_all(&mut inverse, &counts, zero_limit, largest)?
+    };
+    let mut krylov = Krylov::new(n, freedom);
     loop {
-        let mut op = Shifted { inverse: &mut inverse, metric, size: n };
+        let mut op = Shifted { inverse: &mut inverse, metric };
         let limit = (12 * wanted + 240).min(freedom);
         krylov.restart(&mut op)?;
         let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
@@ -121,8 +121,38 @@ pub(crate) fn lowest(
     }
 }
 
-/// A shift below all eigenvalues, about as far from zero as the first eigenvalue that is not: convergence depends on the
-/// ratio of distances from the shift, and vectors next to zero modes that are blown up by more lose their digits.
+/// A shift below all eigenvalues, which are positive, and not far below the first: convergence depends on the ratio of
+/// distances from the shift. The inverse iteration from the factors at hand says where the first is. Leaves the factors of
+/// the shift.
+fn shift_below_positive(op: &mut Shifted<'_, '_>, n: usize, zero_limit: f64) -> Result<f64, TangentError> {
+    let mut x: Vec<f64> = (0..n).map(|k| (1.0 + k as f64).sin()).collect();
+    let (mut wx, mut y) = (vec![0.0; n], vec![0.0; n]);
+    op.metric(&x, &mut wx);
+    let mut first = 0.0;
+    for _ in 0..INVERSE_STEPS {
+        op.apply(&wx, &mut y)?;
+        std::mem::swap(&mut x, &mut y);
+        let product = dot(&x, &wx);
+        op.metric(&x, &mut wx);
+        let square = dot(&x, &wx);
+        // No less than the first ν - σ, and σ is nearly zero beside it.
+        first = product / square;
+        let norm = square.sqrt();
+        x.iter_mut().chain(&mut wx).for_each(|x| *x /= norm);
+    }
+    let mut shift = first / 8.0;
+    while shift > zero_limit {
+        if matches!(op.inverse.factor_shifted(shift), Ok(Some(inertia)) if inertia.negative == 0) {
+            return Ok(shift);
+        }
+        shift /= 4.0;
+    }
+    op.inverse.factor_shifted(zero_limit / 2.0)?;
+    Ok(zero_limit / 2.0)
+}
+
+/// A shift below all eigenvalues, some of them zero or negative, about as far from zero as the first eigenvalue that is
+/// not: vectors next to zero modes that are blown up by more lose their digits. Leaves the factors of the shift.
 fn shift_below_all(
     inverse: &mut ShiftInvert<'_>,
     counts: &Counts,
@@ -141,11 +171,9 @@ fn shift_below_all(
         }
         distance *= 4.0;
     }
-    Ok(match counts {
-        Counts { negative: 0, zero: 0, .. } => distance / 8.0,
-        Counts { negative: 0, .. } => -distance / 4.0,
-        _ => -distance,
-    })
+    let shift = if counts.negative == 0 { -distance / 4.0 } else { -distance };
+    inverse.factor_shifted(shift)?;
+    Ok(shift)
 }
 
 /// Grows the space until the pairs of the `wanted` largest θ have converged; those and some behind them.

@@ -7,7 +7,8 @@
 //! residuals come from `VᵀW S V` itself and not from a recurrence. Blocks catch multiple eigenvalues, which symmetric
 //! structures have; what a block misses, the count of [`crate::certified`] finds missing.
 
-use faer::Mat;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use crate::dense;
 use crate::error::TangentError;
@@ -20,16 +21,16 @@ const LOST: f64 = 1e-4;
 
 /// The operator S and the metric W.
 pub(crate) trait Operator {
-    fn size(&self) -> usize;
     fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError>;
     fn metric(&self, x: &[f64], wx: &mut [f64]);
 }
 
-/// A growing Krylov space.
+/// A growing Krylov space. Its vectors stand side by side, so that products with all of them are dense ones.
 pub(crate) struct Krylov {
-    v: Vec<Vec<f64>>,
-    wv: Vec<Vec<f64>>,
-    sv: Vec<Vec<f64>>,
+    size: usize,
+    v: Vec<f64>,
+    wv: Vec<f64>,
+    sv: Vec<f64>,
     /// `VᵀW S V`, row by row of the lower triangle and beyond.
     products: Vec<Vec<f64>>,
     random: u64,
@@ -44,81 +45,88 @@ pub(crate) struct RitzPair {
 }
 
 impl Krylov {
-    /// An empty space that may grow to `most` dimensions.
-    pub(crate) fn new(most: usize) -> Self {
-        Self { v: Vec::new(), wv: Vec::new(), sv: Vec::new(), products: Vec::new(), random: 1, most }
+    /// An empty space of vectors of this size that may grow to `most` dimensions.
+    pub(crate) fn new(size: usize, most: usize) -> Self {
+        let (v, wv, sv) = (Vec::new(), Vec::new(), Vec::new());
+        Self { size, v, wv, sv, products: Vec::new(), random: 1, most }
     }
 
     pub(crate) fn dimension(&self) -> usize {
-        self.v.len()
+        self.products.len()
     }
 
     pub(crate) fn is_full(&self) -> bool {
-        self.v.len() >= self.most
+        self.dimension() >= self.most
     }
 
     /// Adds a block that starts from random vectors.
     pub(crate) fn restart(&mut self, op: &mut impl Operator) -> Result<(), TangentError> {
-        let mut candidates = Vec::new();
+        let mut candidates = Vec::with_capacity(BLOCK * self.size);
         for _ in 0..BLOCK {
-            candidates.push(self.random_vector(op)?);
+            candidates.extend(self.random_vector(op)?);
         }
         self.add(op, candidates)
     }
 
     /// Adds the block `S V_last`.
     pub(crate) fn extend(&mut self, op: &mut impl Operator) -> Result<(), TangentError> {
-        let last = self.sv.len().saturating_sub(BLOCK);
+        let last = self.sv.len().saturating_sub(BLOCK * self.size);
         let candidates = self.sv[last..].to_vec();
         self.add(op, candidates)
     }
 
-    fn add(&mut self, op: &mut impl Operator, candidates: Vec<Vec<f64>>) -> Result<(), TangentError> {
-        let mut wx = vec![0.0; op.size()];
-        for mut x in candidates {
+    fn add(&mut self, op: &mut impl Operator, mut candidates: Vec<f64>) -> Result<(), TangentError> {
+        let mut wx = vec![0.0; self.size];
+        let before: Vec<f64> = candidates.chunks(self.size).map(|x| norm(op, x, &mut wx)).collect();
+        let known = self.dimension();
+        self.take_out(0, &mut candidates);
+        for (x, before) in candidates.chunks_mut(self.size).zip(before) {
             if self.is_full() {
                 break;
             }
-            let mut norm = self.orthogonalise(op, &mut x, &mut wx);
-            if norm.is_none() {
-                x = self.random_vector(op)?;
-                norm = self.orthogonalise(op, &mut x, &mut wx);
+            // What the block's own vectors before have in common with it.
+            self.take_out(known, x);
+            let mut left = norm(op, x, &mut wx);
+            if left <= LOST * before {
+                x.copy_from_slice(&self.random_vector(op)?);
+                let before = norm(op, x, &mut wx);
+                self.take_out(0, x);
+                left = norm(op, x, &mut wx);
+                // Nothing is left outside of the space: it is the whole null space.
+                if left <= LOST * before {
+                    self.most = self.dimension();
+                    break;
+                }
             }
-            // Nothing is left outside of the space: it is the whole null space.
-            let Some(norm) = norm else {
-                self.most = self.v.len();
-                break;
-            };
-            x.iter_mut().chain(&mut wx).for_each(|x| *x /= norm);
-            let mut sx = vec![0.0; op.size()];
+            x.iter_mut().chain(&mut wx).for_each(|x| *x /= left);
+            let mut sx = vec![0.0; self.size];
             op.apply(&wx, &mut sx)?;
-            self.v.push(x);
-            self.wv.push(wx.clone());
-            self.products.push(self.wv.iter().map(|wv| dot(wv, &sx)).collect());
-            self.sv.push(sx);
+            self.v.extend_from_slice(x);
+            self.wv.extend_from_slice(&wx);
+            self.products.push(transposed_product(&self.wv, &sx, self.size));
+            self.sv.extend(sx);
         }
         Ok(())
     }
 
-    /// Takes the space out of x, twice; the W-norm of what is left, or none if that is rounding. `wx` becomes W x.
-    fn orthogonalise(&self, op: &impl Operator, x: &mut [f64], wx: &mut [f64]) -> Option<f64> {
-        op.metric(x, wx);
-        let before = dot(x, wx).max(0.0).sqrt();
-        for _ in 0..2 {
-            for (v, wv) in self.v.iter().zip(&self.wv) {
-                let share = dot(wv, x);
-                x.iter_mut().zip(v).for_each(|(x, v)| *x -= share * v);
-            }
+    /// Takes the space's vectors from `first` on out of x, of one or more columns, twice.
+    fn take_out(&self, first: usize, x: &mut [f64]) {
+        let (v, wv) = (&self.v[first * self.size..], &self.wv[first * self.size..]);
+        // Nothing to take out, and no sizes to multiply.
+        if v.is_empty() {
+            return;
         }
-        op.metric(x, wx);
-        let norm = dot(x, wx).max(0.0).sqrt();
-        (norm > LOST * before).then_some(norm)
+        for _ in 0..2 {
+            let shares = transposed_product(wv, x, self.size);
+            let shares = columns(&shares, v.len() / self.size);
+            matmul(columns_mut(x, self.size), Accum::Add, columns(v, self.size), shares, -1.0, Par::Seq);
+        }
     }
 
     /// `S` times a random vector, which lies in the null space of A.
     fn random_vector(&mut self, op: &mut impl Operator) -> Result<Vec<f64>, TangentError> {
-        let mut wx = vec![0.0; op.size()];
-        let start: Vec<f64> = (0..op.size()).map(|_| self.next_random()).collect();
+        let mut wx = vec![0.0; self.size];
+        let start: Vec<f64> = (0..self.size).map(|_| self.next_random()).collect();
         op.metric(&start, &mut wx);
         let mut x = start;
         op.apply(&wx, &mut x)?;
@@ -134,32 +142,66 @@ impl Krylov {
     /// Ritz pairs with the `count` largest θ, descending. Their vectors are S V s, which lies in the null space of A as
     /// exactly as one solve; V s gathers the rounding of all orthogonalisations.
     pub(crate) fn largest(&self, op: &impl Operator, count: usize) -> Result<Vec<RitzPair>, TangentError> {
-        let k = self.v.len();
+        let k = self.dimension();
         let t = Mat::from_fn(k, k, |r, c| self.products[r.max(c)][r.min(c)]);
         let (values, vectors) = dense::symmetric_eigen(&t)?;
-        let mut residual = vec![0.0; op.size()];
-        let mut weighted = vec![0.0; op.size()];
-        let mut pairs = Vec::new();
-        for column in (0..k).rev().take(count) {
-            let theta = values[column];
-            let mut vector = vec![0.0; op.size()];
-            residual.fill(0.0);
-            for (row, (v, sv)) in self.v.iter().zip(&self.sv).enumerate() {
-                let s = vectors[(row, column)];
-                for ((x, r), (v, sv)) in vector.iter_mut().zip(&mut residual).zip(v.iter().zip(sv)) {
-                    *x += s * sv;
-                    *r += s * (sv - theta * v);
-                }
-            }
-            op.metric(&residual, &mut weighted);
-            let residual = dot(&residual, &weighted).max(0.0).sqrt();
-            op.metric(&vector, &mut weighted);
-            let norm = dot(&vector, &weighted).max(0.0).sqrt();
-            vector.iter_mut().for_each(|x| *x /= norm);
-            pairs.push(RitzPair { theta, vector, residual });
-        }
-        Ok(pairs)
+        let count = count.min(k);
+        let theta = |column: usize| values[k - 1 - column];
+        let s = Mat::from_fn(k, count, |row, column| vectors[(row, k - 1 - column)]);
+        let scaled = Mat::from_fn(k, count, |row, column| theta(column) * s[(row, column)]);
+        let (mut x, mut residual) = (vec![0.0; self.size * count], vec![0.0; self.size * count]);
+        matmul(
+            columns_mut(&mut x, self.size),
+            Accum::Replace,
+            columns(&self.sv, self.size),
+            s.as_ref(),
+            1.0,
+            Par::Seq,
+        );
+        residual.copy_from_slice(&x);
+        matmul(
+            columns_mut(&mut residual, self.size),
+            Accum::Add,
+            columns(&self.v, self.size),
+            scaled.as_ref(),
+            -1.0,
+            Par::Seq,
+        );
+        let mut weighted = vec![0.0; self.size];
+        let pairs = x.chunks(self.size).zip(residual.chunks(self.size)).enumerate();
+        let pair = |(column, (x, residual)): (usize, (&[f64], &[f64]))| {
+            let residual = norm(op, residual, &mut weighted);
+            let length = norm(op, x, &mut weighted);
+            let vector = x.iter().map(|x| x / length).collect();
+            RitzPair { theta: theta(column), vector, residual }
+        };
+        Ok(pairs.map(pair).collect())
     }
+}
+
+/// Vectors of this size side by side.
+fn columns(vectors: &[f64], size: usize) -> MatRef<'_, f64> {
+    let count = vectors.len().checked_div(size).unwrap_or(0);
+    MatRef::from_column_major_slice(vectors, size, count)
+}
+
+fn columns_mut(vectors: &mut [f64], size: usize) -> MatMut<'_, f64> {
+    let count = vectors.len().checked_div(size).unwrap_or(0);
+    MatMut::from_column_major_slice_mut(vectors, size, count)
+}
+
+/// `AᵀB`, column by column, of columns of this size.
+fn transposed_product(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
+    let (a, b) = (columns(a, size), columns(b, size));
+    let mut product = vec![0.0; a.ncols() * b.ncols()];
+    matmul(columns_mut(&mut product, a.ncols()), Accum::Replace, a.transpose(), b, 1.0, Par::Seq);
+    product
+}
+
+/// W-norm of x; `wx` becomes W x.
+fn norm(op: &impl Operator, x: &[f64], wx: &mut [f64]) -> f64 {
+    op.metric(x, wx);
+    dot(x, wx).max(0.0).sqrt()
 }
 
 /// Scalar product in eight partial sums, so that the additions do not wait for each other.
