@@ -2,7 +2,7 @@
 //!
 //! - `data/framework.json`: minimal coordinates, Taylor or high-order Runge–Kutta integration with located events;
 //!   values named `scheme_*` are of the paper's own discrete scheme;
-//! - `data/mast.json`: central differences, converged.
+//! - `data/mast.json`: central differences, converged; modes by scipy.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -208,11 +208,13 @@ pub fn framework() -> &'static Framework {
 /// Source named in rows that compare with the mast's positions.
 pub const CONVERGED: &str = "reference positions, converged";
 
-/// Node positions of the mast at a few times.
+/// Node positions of the mast at a few times, and its lowest modes.
 #[derive(Debug, Deserialize)]
 pub struct Mast {
     /// Times \[s\].
     pub t: Vec<f64>,
+    /// ω² of the ten lowest modes about the loaded equilibrium \[1/s²\], ascending, by number of stages.
+    pub omega_squared: BTreeMap<usize, Vec<f64>>,
     #[serde(rename = "2")]
     two: Vec<Vec<[f64; 3]>>,
     #[serde(rename = "8")]
@@ -236,7 +238,7 @@ impl Mast {
     }
 }
 
-/// The mast's positions.
+/// The mast's positions and modes.
 ///
 /// # Panics
 /// If the file that is compiled in is damaged, which a test of this crate would show.

@@ -1,12 +1,14 @@
 //! The prism mast that other tools were measured on: its model against plain sums over its bars and cables, its motion
-//! against converged positions.
+//! against converged positions, its modes against those of another model and solver.
 //!
 //! The symplectic scheme is symmetric: its error has even powers of h only, and each halving of the step removes one more
 //! (Romberg).
 
 use rayon::prelude::*;
 use tg_fixtures::{Mast, MastScene, mast};
+use tg_modal::{ModeOptions, modes};
 use tg_model::{At, Mechanics, Model};
+use tg_statics::{Forward, ForwardOptions};
 use tg_tangent::Configuration;
 
 use crate::error::CaseError;
@@ -18,6 +20,7 @@ use crate::simulate::{distance, order, run};
 pub const NAME: &str = "mast";
 const GEOMETRY: &str = "geometry of the mast";
 const SUMS: &str = "sums over bars and cables";
+const SCIPY: &str = "scipy: saddle-point matrix, Lanczos";
 const THEORY: &str = "theory, second order";
 
 /// How a size is run.
@@ -53,7 +56,24 @@ pub fn rows() -> Result<Vec<Row>, CaseError> {
     for (runs, paths) in RUNS.iter().zip(&paths) {
         runs.rows(&mut rows, paths);
     }
+    for (&stages, known) in &published::mast().omega_squared {
+        modal(&mut rows, stages, known)?;
+    }
     Ok(rows.finish())
+}
+
+/// Ten lowest modes about the loaded equilibrium.
+fn modal(rows: &mut Rows, stages: usize, known: &[f64]) -> Result<(), CaseError> {
+    let model = mast(stages)?.model;
+    let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
+    let at = Forward::new(&model, ForwardOptions::default()).solve(&q, &u)?.configuration;
+    let found = modes(&model, &at, &ModeOptions::new(known.len()))?;
+    let pairs = found.list.iter().zip(known);
+    let apart = pairs.map(|(ours, known)| (ours.omega_squared / known - 1.0).abs());
+    let name = |what: &str| format!("N = {stages}: {what}");
+    rows.exact(name("lowest modes"), (found.list.len(), known.len()), SCIPY);
+    rows.below(name("largest difference of an ω², relative"), "1", apart.fold(0.0, f64::max), SCIPY, 1e-9);
+    Ok(())
 }
 
 fn counts(rows: &mut Rows, stages: usize) -> Result<(), CaseError> {
