@@ -30,14 +30,14 @@
 //! | (38) | leapfrog with exact constraints (RATTLE) | [`Leapfrog`] |
 //! | (38), differentiated twice | explicit pairs of order 5(4) and 8(5,3) (Dormand, Prince) | [`RungeKutta`] |
 //!
-//! Which one: [`Leapfrog`] for a draft, or [`RungeKutta`] under error control where cables are neither stiff nor hard damped for the step that the motion
-//! asks for; [`Symplectic`] where they are, or where energy must not drift over very many periods; [`Composition`] for the
-//! latter with few digits lost. Half a second of a guyed mast of eight stages:
+//! Which one: [`Leapfrog`] for a draft, or [`RungeKutta`] under error control, where cables are neither stiff nor hard
+//! damped for the step that the motion asks for; [`Symplectic`] where they are, or where energy must not drift over very
+//! many periods; [`Composition`] for the latter with few digits lost. Half a second of a guyed mast of eight stages:
 //!
 //! | scheme | step or tolerance | largest error \[m\] | force evaluations |
 //! |---|---|---|---|
 //! | [`Leapfrog`] | 1 ms | 9e-6 | 500 |
-//! | [`Symplectic`] | 1 ms | 2.6e-5 | 2000 |
+//! | [`Symplectic`] | 1 ms | 2.6e-5 | 2300 |
 //! | [`Composition`], order 4 / 6 | 4 ms | 1.0e-6 / 1.8e-8 | – |
 //! | [`RungeKutta`], order 5 / 8 | fixed 4 ms | 5.0e-9 / 4e-14 | 750 / 1500 |
 //! | [`RungeKutta`], order 5 / 8 | 1e-4 | 3.2e-7 / 1.1e-9 | 450 / 515 |

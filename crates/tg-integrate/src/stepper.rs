@@ -28,8 +28,8 @@ pub trait Stepper {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
     /// Scaled residual to reach: dynamic rows by their largest term, constraints by the size of their member.
-    /// On the planar tower the default 1e-12 leaves only rounding and costs 4.2 iterations a step, most
-    /// of them with kept factors; 1e-8 costs 3.9 and leaves 7e-10 m after 2 s, 1e-6 costs 2.6 and leaves 9e-6 m (`cargo xtask defaults`).
+    /// On the planar tower the default 1e-12 leaves only rounding and costs 4.2 iterations a step, most of them with kept
+    /// factors; 1e-8 costs 3.9 and leaves 7e-10 m after 2 s, 1e-6 costs 2.6 and leaves 9e-6 m (`cargo xtask defaults`).
     pub tolerance: f64,
     /// Iterations before an attempt at a step is given up: several times what a step that converges needs.
     pub max_iterations: u32,

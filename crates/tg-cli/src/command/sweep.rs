@@ -73,14 +73,19 @@ impl Dimensioned for Structure<3> {
     }
 }
 
+/// All parameters that are set, the swept one to this value.
+fn parameters(loaded: &Loaded, arguments: &Sweep, value: f64) -> Vec<(String, f64)> {
+    let mut set = loaded.set.clone();
+    set.push((arguments.parameter.clone(), value));
+    set
+}
+
 /// The structure at a value of the parameter.
 fn at<const D: usize>(loaded: &Loaded, arguments: &Sweep, value: f64) -> Result<Structure<D>, Failure>
 where
     Structure<D>: Dimensioned,
 {
-    let mut set = loaded.set.clone();
-    set.push((arguments.parameter.clone(), value));
-    let built = loaded.file.build(&set)?;
+    let built = loaded.file.build(&parameters(loaded, arguments, value))?;
     Dimensioned::take(built).ok_or_else(|| Failure::Usage("the scene changes its dimension".into()))
 }
 

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use tg_scene::Structure;
 
 use super::method::Method;
-use super::trial::{distance, go_on, trial};
+use super::trial::{distance, go_on, trial, unreached};
 use crate::answer::Failure;
 
 /// Steps of the first trial: a multiple of the number of looks.
@@ -52,8 +52,5 @@ pub(super) fn choose<const D: usize>(
             coarse = run(steps);
         }
     }
-    let why = coarse.err().map_or_else(String::new, |why| format!(": {why}"));
-    let message =
-        format!("no step down to {:.1e} s reaches an error of {accuracy} m{why}; ask for less", end / FINEST);
-    Err(Failure::analysis(message))
+    Err(unreached(&format!("step down to {:.1e} s", end / FINEST), accuracy, coarse, "ask for less"))
 }

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use tg_scene::Structure;
 
 use super::method::Method;
-use super::trial::{LOOKS, distance, go_on, trial};
+use super::trial::{LOOKS, distance, go_on, trial, unreached};
 use crate::answer::Failure;
 
 /// Tolerance of the first trial, and the powers of ten below it that are tried.
@@ -39,10 +39,6 @@ pub(super) fn choose<const D: usize>(
         }
         coarse = fine;
     }
-    let why = coarse.err().map_or_else(String::new, |why| format!(": {why}"));
-    let message = format!(
-        "no tolerance down to {:.0e} reaches an error of {accuracy} m{why}; ask for less, or take another scheme",
-        at(FINEST)
-    );
-    Err(Failure::analysis(message))
+    let tried = format!("tolerance down to {:.0e}", at(FINEST));
+    Err(unreached(&tried, accuracy, coarse, "ask for less, or take another scheme"))
 }

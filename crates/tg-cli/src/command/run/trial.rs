@@ -59,3 +59,9 @@ pub(super) fn go_on() -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// No trial came near enough: what was tried, why the last one failed if it did, and what would mend it.
+pub(super) fn unreached(tried: &str, accuracy: f64, last: Result<Vec<f64>, String>, mend: &str) -> Failure {
+    let why = last.err().map_or_else(String::new, |why| format!(": {why}"));
+    Failure::analysis(format!("no {tried} reaches an error of {accuracy} m{why}; {mend}"))
+}

@@ -4,7 +4,7 @@ use serde::Serialize;
 use tg_integrate::Run as Integration;
 use tg_scene::{RunSettings, Structure};
 
-use super::super::{Dimensioned, at};
+use super::super::{Dimensioned, at, parameters};
 use super::extremes::{Extreme, Extremes};
 use crate::answer::Failure;
 use crate::args::Sweep;
@@ -87,9 +87,7 @@ fn scene_at<const D: usize>(
 where
     Structure<D>: Dimensioned,
 {
-    let mut set = loaded.set.clone();
-    set.push((arguments.parameter.clone(), value));
-    let settings = loaded.file.run(&set)?;
+    let settings = loaded.file.run(&parameters(loaded, arguments, value))?;
     let settings = settings.ok_or_else(|| Failure::Usage("the scene has no [run] section".into()))?;
     Ok((at(loaded, arguments, value)?, settings))
 }
