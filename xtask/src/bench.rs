@@ -4,7 +4,7 @@
 //! and passes of all tools alternate, of which the fastest counts.
 //!
 //! - `clock`: processor time; `scene`, `scheme`: what is measured; `machine`: on what; `page`: where it is written;
-//! - `stepping`, `parts`, `memory`: cost of steps, of their parts and of analyses, peak memory;
+//! - `stepping`, `growth`, `parts`, `memory`: cost of steps, also by size, of their parts and of analyses, peak memory;
 //! - `converged`, `curve`: error against time; `floor`: the program written for the mast alone;
 //! - `sizes`, `papers`, `accuracy`: the tables; `export`: the mast for other tools.
 
@@ -14,6 +14,7 @@ mod converged;
 mod curve;
 mod export;
 mod floor;
+mod growth;
 mod machine;
 mod memory;
 mod page;
@@ -50,14 +51,17 @@ pub(crate) struct Options {
 }
 
 impl Options {
+    /// Seconds for one measurement.
+    const BUDGET: f64 = 0.5;
+
     /// Times that everything is measured.
     fn passes(&self) -> usize {
         if self.quick { 1 } else { 3 }
     }
 
-    /// Seconds for one measurement.
+    /// Seconds for one measurement, a tenth for a short check.
     fn budget(&self) -> f64 {
-        if self.quick { 0.05 } else { 0.5 }
+        if self.quick { Self::BUDGET / 10.0 } else { Self::BUDGET }
     }
 }
 
@@ -108,6 +112,12 @@ pub(crate) fn curves(options: &CurveOptions) -> Result<bool, TaskError> {
         points.extend(floor.curves(&run, &converged, options.limit)?);
     }
     println!("{}", serde_json::to_string(&points)?);
+    Ok(true)
+}
+
+/// Prints ten lowest modes of one mast and what they cost as JSON, for the peers' scripts.
+pub(crate) fn modes(stages: usize) -> Result<bool, TaskError> {
+    println!("{}", serde_json::to_string(&parts::modal(stages, Options::BUDGET)?)?);
     Ok(true)
 }
 

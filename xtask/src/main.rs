@@ -52,6 +52,11 @@ enum Task {
     },
     /// Print error against time of all schemes on one mast as JSON, for the peers' scripts.
     Curves(bench::CurveOptions),
+    /// Print ten lowest modes of the mast of N stages and their cost as JSON, for the peers' scripts.
+    Modes {
+        /// Number of stages N.
+        stages: usize,
+    },
     /// Count the instructions of a step under valgrind and compare them with the stored ones.
     ///
     /// Of the profile `quick`: `cargo build --profile quick -p xtask && target/quick/xtask instructions`. Exit code 1 if a
@@ -83,6 +88,7 @@ fn main() -> ExitCode {
         Task::Bench(options) => bench::bench(&options),
         Task::Mast { stages } => bench::mast(stages),
         Task::Curves(options) => bench::curves(&options),
+        Task::Modes { stages } => bench::modes(stages),
         Task::Instructions { bless } => instructions::check(bless),
         Task::CountedSteps => instructions::in_child(),
         Task::PeakMemory { stages, scheme } => bench::peak_memory(stages, scheme),

@@ -34,8 +34,7 @@ fn point(
     let (mut stepper, mut state) = scheme.start(&run.scene, dial)?;
     let (mut samples, mut times) = (vec![run.positions(&state.q)], Vec::new());
     while samples.len() < SAMPLES {
-        let (seconds, done) =
-            timed(|| (0..dial.calls()).try_for_each(|_| stepper.step(&mut state, dial.step()).map(drop)));
+        let (seconds, done) = timed(|| dial.advance(stepper.as_mut(), &mut state));
         if done.is_err() {
             return Ok(None);
         }

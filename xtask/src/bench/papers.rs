@@ -17,15 +17,15 @@ pub(super) fn section(options: &Options) -> Result<String, TaskError> {
     let mut rows = Vec::new();
     for scheme in &SCHEMES {
         let mut row = vec![scheme.name.to_string()];
-        let mut iterations = vec!["· Newton iterations".to_string()];
+        let mut counts = vec![scheme.counts.label().to_string()];
         for scene in &scenes {
             // A scheme may not be made for a scene: an explicit one without mass, say.
             let measured = (0..options.passes()).filter_map(|_| cost(scene, scheme, options.budget()).ok());
             let best = measured.min_by(|a, b| a.micros.total_cmp(&b.micros));
             row.push(best.map_or("–".into(), |cost| digits(cost.micros)));
-            iterations.push(best.map_or("–".into(), |cost| digits(cost.iterations)));
+            counts.push(best.map_or("–".into(), |cost| digits(cost.iterations)));
         }
-        rows.extend([row, iterations]);
+        rows.extend([row, counts]);
     }
     for (name, part) in [("assembly", 0), ("factorisation", 1), ("solve", 2)] {
         let mut row = vec![name.to_string()];

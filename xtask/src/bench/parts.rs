@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 
+use serde::Serialize;
 use tg_fixtures::{Mast, MastScene, mast};
 use tg_modal::{ModeOptions, modes};
 use tg_model::{At, Layout};
@@ -67,14 +68,27 @@ pub(crate) fn inverse_statics(stages: usize, budget: f64) -> Result<f64, TaskErr
     Ok(seconds)
 }
 
-/// Ten lowest modes about the mast's loaded equilibrium, and the search for that \[s\].
-pub(crate) fn modal(stages: usize, budget: f64) -> Result<(f64, f64), TaskError> {
+/// Ten lowest modes about the mast's loaded equilibrium, and the search for that.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Modal {
+    /// Seconds of the search.
+    pub(crate) search: f64,
+    /// Seconds of the modes alone.
+    pub(crate) modes: f64,
+    /// ω² of the ten lowest modes \[1/s²\].
+    pub(crate) omega_squared: Vec<f64>,
+}
+
+/// # Errors
+/// No equilibrium, or no modes.
+pub(crate) fn modal(stages: usize, budget: f64) -> Result<Modal, TaskError> {
     let model = mast(stages)?.model;
     let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
     let forward = Forward::new(&model, ForwardOptions::default());
     let search = repeated(budget, || forward.solve(&q, &u).map(drop))?;
-    let found = forward.solve(&q, &u)?;
+    let at = forward.solve(&q, &u)?.configuration;
     let options = ModeOptions::new(10);
-    let modal = repeated(budget, || modes(&model, &found.configuration, &options).map(drop))?;
-    Ok((modal, search))
+    let seconds = repeated(budget, || modes(&model, &at, &options).map(drop))?;
+    let list = modes(&model, &at, &options)?.list;
+    Ok(Modal { search, modes: seconds, omega_squared: list.iter().map(|mode| mode.omega_squared).collect() })
 }

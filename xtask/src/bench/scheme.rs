@@ -1,8 +1,8 @@
 //! The schemes that are measured: one entry each.
 
 use tg_integrate::{
-    EmbeddedPair, GeneralizedAlpha, Leapfrog, NewtonOptions, RungeKutta, StartError, State, Stepper,
-    Symplectic, Tolerances,
+    EmbeddedPair, GeneralizedAlpha, Leapfrog, NewtonOptions, RungeKutta, StartError, State, StepError,
+    Stepper, Symplectic, Tolerances,
 };
 use tg_model::Mechanics;
 
@@ -37,6 +37,12 @@ impl Dial {
     pub(crate) fn step(self) -> f64 {
         SAMPLE / f64::from(self.calls())
     }
+
+    /// Goes on by a sample; Newton iterations or evaluations made.
+    pub(crate) fn advance(self, stepper: &mut dyn Stepper, state: &mut State) -> Result<u64, StepError> {
+        (0..self.calls())
+            .try_fold(0, |sum, _| Ok(sum + u64::from(stepper.step(state, self.step())?.iterations)))
+    }
 }
 
 /// Dials from coarse to fine.
@@ -67,6 +73,16 @@ pub(crate) enum Counts {
     Iterations,
     /// Evaluations of the accelerations, which are compared one by one: schemes differ in how many make a step.
     Evaluations,
+}
+
+impl Counts {
+    /// The count of a step, as a row of a table.
+    pub(crate) fn label(self) -> &'static str {
+        match self {
+            Self::Iterations => "· Newton iterations",
+            Self::Evaluations => "· evaluations",
+        }
+    }
 }
 
 /// A scheme with its settings.

@@ -5,7 +5,7 @@ use super::page::{digits, table};
 use super::scene::{MastRun, Scene};
 use super::scheme::{Counts, Dial, SCHEMES};
 use super::stepping::{Cost, cost};
-use super::{Options, memory, parts};
+use super::{Options, growth, memory, parts};
 use crate::TaskError;
 
 /// Largest mast that the floor program is run on.
@@ -82,10 +82,12 @@ fn steps(options: &Options, stages: &[usize], floor: Option<&Floor>) -> Result<S
     let mut header: Vec<String> = vec!["µs per step of 1 ms".into()];
     header.extend(stages.iter().map(|n| format!("N = {n}")));
     header.push("growth".into());
+    let growth = growth::exponents(options, stages.iter().copied().max().unwrap_or(0))?;
     let mut rows = Vec::new();
     for (k, scheme) in SCHEMES.iter().enumerate() {
         let micros: Vec<f64> = measured.iter().map(|m| m.costs[k].micros).collect();
-        rows.push(row(scheme.name, &micros, &growth(stages, &micros)));
+        let exponent = growth.as_ref().map(|exponents| format!("N^{:.2}", exponents[k]));
+        rows.push(row(scheme.name, &micros, &exponent.unwrap_or_default()));
         let per_freedom: Vec<f64> = micros
             .iter()
             .zip(&measured)
@@ -95,7 +97,7 @@ fn steps(options: &Options, stages: &[usize], floor: Option<&Floor>) -> Result<S
         match scheme.counts {
             Counts::Iterations => {
                 let iterations: Vec<f64> = measured.iter().map(|m| m.costs[k].iterations).collect();
-                rows.push(row("· Newton iterations", &iterations, ""));
+                rows.push(row(scheme.counts.label(), &iterations, ""));
             }
             Counts::Evaluations => {
                 let micros: Vec<f64> = measured.iter().map(|m| m.per_evaluation(k)).collect();
@@ -126,18 +128,6 @@ fn row(name: &str, values: &[f64], last: &str) -> Vec<String> {
     row
 }
 
-/// Exponent of the size from N = 8 to the largest.
-fn growth(stages: &[usize], micros: &[f64]) -> String {
-    let from = stages.iter().position(|&n| n == 8).zip(stages.len().checked_sub(1));
-    match from {
-        Some((from, to)) if from < to => {
-            let ratio = (micros[to] / micros[from]).ln() / (stages[to] as f64 / stages[from] as f64).ln();
-            format!("N^{ratio:.2}")
-        }
-        _ => String::new(),
-    }
-}
-
 /// Parts of a Newton iteration, inverse statics, search for equilibrium, modes.
 fn analyses(options: &Options, stages: &[usize]) -> Result<String, TaskError> {
     let mut header: Vec<String> = vec!["ms".into()];
@@ -160,8 +150,12 @@ fn analyses(options: &Options, stages: &[usize]) -> Result<String, TaskError> {
         } else {
             f64::INFINITY
         });
-        let (modes, search) =
-            if next(&modal) < PATIENCE { parts::modal(n, budget)? } else { (f64::INFINITY, f64::INFINITY) };
+        let (modes, search) = if next(&modal) < PATIENCE {
+            let modal = parts::modal(n, budget)?;
+            (modal.modes, modal.search)
+        } else {
+            (f64::INFINITY, f64::INFINITY)
+        };
         modal.push(modes + search);
         let seconds =
             [newton.assembly, newton.factorisation, newton.solve, inverse[inverse.len() - 1], search, modes];

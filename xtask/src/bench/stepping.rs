@@ -4,7 +4,7 @@ use allocation_counter::measure;
 
 use super::clock::{cpu, median, timed};
 use super::scene::Scene;
-use super::scheme::{Dial, Scheme};
+use super::scheme::{Dial, SAMPLE, Scheme};
 use crate::TaskError;
 
 /// Cost of the steps of 1 ms from a structure's start.
@@ -24,20 +24,10 @@ pub(crate) fn cost(scene: &Scene, scheme: &Scheme, budget: f64) -> Result<Cost, 
     let (mut times, mut iterations, mut allocations) = (Vec::new(), 0_u64, 0);
     let start = cpu();
     while times.len() < 5 || (times.len() < 200 && cpu() - start < budget) {
-        let mut failed = None;
-        let mut chunk = || {
-            for _ in 0..Dial::PAPER.calls() {
-                match stepper.step(&mut state, Dial::PAPER.step()) {
-                    Ok(report) => iterations += u64::from(report.iterations),
-                    Err(error) => failed = Some(error),
-                }
-            }
-        };
-        let mut seconds = 0.0;
-        let counted = measure(|| seconds = timed(&mut chunk).0);
-        if let Some(error) = failed {
-            return Err(error.into());
-        }
+        let (mut seconds, mut done) = (0.0, Ok(0));
+        let counted =
+            measure(|| (seconds, done) = timed(|| Dial::PAPER.advance(stepper.as_mut(), &mut state)));
+        iterations += done?;
         allocations += if times.is_empty() { 0 } else { counted.count_total };
         times.push(seconds);
     }
@@ -50,12 +40,27 @@ pub(crate) fn cost(scene: &Scene, scheme: &Scheme, budget: f64) -> Result<Cost, 
     })
 }
 
+/// Processor time of the first `samples` of 10 ms from the start \[s\], a sample: the median over runs for about `budget`
+/// seconds.
+pub(crate) fn first(scene: &Scene, scheme: &Scheme, samples: usize, budget: f64) -> Result<f64, TaskError> {
+    let (start, mut times) = (cpu(), Vec::new());
+    while times.is_empty() || cpu() - start < budget {
+        let (mut stepper, mut state) = scheme.start(scene, Dial::PAPER)?;
+        for _ in 0..samples {
+            let (seconds, done) = timed(|| Dial::PAPER.advance(stepper.as_mut(), &mut state));
+            done?;
+            times.push(seconds);
+        }
+    }
+    Ok(median(times))
+}
+
 /// Processor time of a whole run of `duration` seconds at 1 ms \[s\].
 pub(crate) fn whole(scene: &Scene, scheme: &Scheme, duration: f64) -> Result<f64, TaskError> {
     let (mut stepper, mut state) = scheme.start(scene, Dial::PAPER)?;
-    let steps = (duration / Dial::PAPER.step()).round() as u64;
+    let samples = (duration / SAMPLE).round() as u64;
     let (seconds, done) =
-        timed(|| (0..steps).try_for_each(|_| stepper.step(&mut state, Dial::PAPER.step()).map(drop)));
+        timed(|| (0..samples).try_for_each(|_| Dial::PAPER.advance(stepper.as_mut(), &mut state).map(drop)));
     done?;
     Ok(seconds)
 }
