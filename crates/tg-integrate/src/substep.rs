@@ -157,6 +157,9 @@ impl<'m> Substep<'m> {
     }
 }
 
+/// Entries that are combined at a time: what stays in the first cache while all rates pass.
+const PIECE: usize = 512;
+
 /// `out = y + h Σ c_j k_j`.
 fn combine(y: &[f64], h: f64, terms: Terms, rates: &[f64], out: &mut [f64]) {
     out.copy_from_slice(y);
@@ -166,10 +169,12 @@ fn combine(y: &[f64], h: f64, terms: Terms, rates: &[f64], out: &mut [f64]) {
 /// `out += h Σ c_j k_j`.
 fn accumulate(h: f64, terms: Terms, rates: &[f64], out: &mut [f64]) {
     let size = out.len();
-    for &(j, c) in terms {
-        let factor = h * c;
-        for (out, k) in out.iter_mut().zip(&rates[size * j..size * (j + 1)]) {
-            *out += factor * k;
+    for (piece, out) in out.chunks_mut(PIECE).enumerate() {
+        for &(j, c) in terms {
+            let factor = h * c;
+            for (out, k) in out.iter_mut().zip(&rates[size * j + PIECE * piece..]) {
+                *out += factor * k;
+            }
         }
     }
 }

@@ -21,6 +21,48 @@ use batch::{Elimination, Solve, is_sound};
 pub(crate) use layout::LdltLayout;
 use layout::NONE;
 
+/// A matrix to factor, put into the panels piece by piece, shortly before each is used: a large one does not stay in the
+/// cache from one end to the other.
+pub(crate) struct Matrix<'a> {
+    /// Panels of what is constant.
+    constant: &'a [Lanes],
+    /// Magnitudes on its diagonal, by places.
+    diagonal: &'a [Lanes],
+    /// Places in the panels, ascending, and which value is subtracted there.
+    slots: &'a [(u32, u32)],
+    values: &'a [f64],
+    /// Chunks that are there.
+    done: usize,
+}
+
+impl<'a> Matrix<'a> {
+    pub(crate) fn new(
+        constant: &'a [Lanes],
+        diagonal: &'a [Lanes],
+        slots: &'a [(u32, u32)],
+        values: &'a [f64],
+    ) -> Self {
+        Self { constant, diagonal, slots, values, done: 0 }
+    }
+
+    /// Puts what is missing of the first `until` chunks.
+    fn put(&mut self, panels: &mut [Lanes], until: usize) {
+        if until <= self.done {
+            return;
+        }
+        panels[self.done..until].copy_from_slice(&self.constant[self.done..until]);
+        let panels: &mut [f64] = cast_slice_mut(panels);
+        let here = self.slots.iter().take_while(|(slot, _)| (*slot as usize) < until * LANES);
+        let mut count = 0;
+        for &(slot, value) in here {
+            panels[slot as usize] -= self.values[value as usize];
+            count += 1;
+        }
+        self.slots = &self.slots[count..];
+        self.done = until;
+    }
+}
+
 /// Factors and buffers.
 #[derive(Clone, Debug)]
 pub(crate) struct Ldlt {
@@ -46,17 +88,17 @@ impl Ldlt {
         }
     }
 
-    /// Panels with these values and these magnitudes on the diagonal; more is to be added to the panels.
-    pub(crate) fn start(&mut self, panels: &[Lanes], diagonal: &[Lanes]) -> &mut [f64] {
-        self.panels.copy_from_slice(panels);
-        self.scale.copy_from_slice(diagonal);
-        cast_slice_mut(&mut self.panels)
-    }
-
-    /// Factors what stands in the panels.
-    pub(crate) fn factor(&mut self, symbolic: &Symbolic, layout: &LdltLayout) -> Result<(), PivotTrouble> {
+    /// Factors the matrix.
+    pub(crate) fn factor(
+        &mut self,
+        mut matrix: Matrix<'_>,
+        symbolic: &Symbolic,
+        layout: &LdltLayout,
+    ) -> Result<(), PivotTrouble> {
         let Self { panels, inverse, scale, updates, local } = self;
+        scale.copy_from_slice(matrix.diagonal);
         for batch in &layout.batches {
+            matrix.put(panels, batch.reach);
             if !batch::eliminate(
                 batch,
                 Elimination { panels, inverse, scale, local, targets: &layout.targets },
@@ -64,6 +106,7 @@ impl Ldlt {
                 return Err(self.trouble(layout, batch.first * LANES));
             }
         }
+        matrix.put(panels, layout.panels_len() / LANES);
         let panels: &mut [f64] = cast_slice_mut(panels);
         let (inverse, scale): (&mut [f64], &mut [f64]) = (cast_slice_mut(inverse), cast_slice_mut(scale));
         let local: &mut [f64] = cast_slice_mut(local);

@@ -14,7 +14,7 @@ use bytemuck::{cast_slice, cast_slice_mut};
 
 use crate::error::SparseError;
 use crate::kernels::LANES;
-use crate::ldlt::{Lanes, Ldlt, LdltLayout};
+use crate::ldlt::{Lanes, Ldlt, LdltLayout, Matrix};
 use crate::pattern::SaddlePattern;
 
 /// `[M, −Aᵀ; A, 0]` with a constant symmetric M: values, factors and every buffer. Made once, then factored and solved
@@ -23,8 +23,8 @@ use crate::pattern::SaddlePattern;
 pub struct SymmetricSystem {
     pattern: SaddlePattern,
     layout: LdltLayout,
-    /// Where each entry of A goes; the last slots of all take the entries outside of the system.
-    slots: Vec<u32>,
+    /// Where entries of A go, ascending, and which; the last slots of all take the entries outside of the system.
+    slots: Vec<(u32, u32)>,
     /// Fronts that hold M and nothing else.
     constant: Vec<Lanes>,
     /// Magnitudes on their diagonal.
@@ -71,7 +71,9 @@ impl SymmetricSystem {
             let (upper, lower) = (panel_slots[upper as usize], panel_slots[lower as usize]);
             if upper == outside { lower } else { upper }
         };
-        let slots = pattern.slots.upper.iter().zip(&pattern.slots.lower).map(above).collect();
+        let slots = pattern.slots.upper.iter().zip(&pattern.slots.lower).map(above);
+        let mut slots: Vec<(u32, u32)> = slots.zip(0..).collect();
+        slots.sort_unstable();
         Self {
             ldlt: Ldlt::new(&layout),
             places: layout.variables(&pattern.symbolic),
@@ -95,11 +97,8 @@ impl SymmetricSystem {
     #[track_caller]
     pub fn factor(&mut self, jacobian: &[f64]) -> Result<(), SparseError> {
         assert_eq!(jacobian.len(), self.slots.len(), "values of the Jacobian");
-        let panels = self.ldlt.start(&self.constant, &self.diagonal);
-        for (&slot, value) in self.slots.iter().zip(jacobian) {
-            panels[slot as usize] -= value;
-        }
-        self.ldlt.factor(&self.pattern.symbolic, &self.layout).map_err(|trouble| SparseError::Pivot {
+        let matrix = Matrix::new(&self.constant, &self.diagonal, &self.slots, jacobian);
+        self.ldlt.factor(matrix, &self.pattern.symbolic, &self.layout).map_err(|trouble| SparseError::Pivot {
             row: self.pattern.row_at(trouble.position),
             pivot: trouble.pivot,
             scale: trouble.scale,

@@ -27,6 +27,8 @@ pub(super) struct Batch {
     /// Whether the targets of all lanes are lanes of one chunk: a target is then a chunk, else as many numbers as there are
     /// lanes.
     pub(super) together: bool,
+    /// Chunks of the panels, from the first on, that this batch and those before it reach.
+    pub(super) reach: usize,
 }
 
 /// Chunks of a panel.

@@ -146,7 +146,7 @@ impl LdltLayout {
         }
         self.panel_len += batch::panel_len(width, rest) * LANES;
         self.local_len = self.local_len.max(width * (width + rest) * LANES);
-        self.batches.push(Batch { width, rest, panel, first, targets: 0, together: true });
+        self.batches.push(Batch { width, rest, panel, first, targets: 0, together: true, reach: 0 });
     }
 
     fn place_single(&mut self, symbolic: &Symbolic, at: usize) -> Home {
@@ -214,6 +214,12 @@ impl LdltLayout {
                 target[lane] = place as u32;
             }
         }
+        let batch = &self.batches[at];
+        let own = batch.panel + batch::panel_len(batch.width, rest);
+        let far = targets[rest..].iter().flatten().filter(|&&place| (place as usize) < self.panel_len);
+        let far = far.max().map_or(0, |&place| place as usize / LANES + 1);
+        let before = at.checked_sub(1).map_or(0, |before| self.batches[before].reach);
+        let reach = before.max(own).max(far);
         let chunk = |target: &[u32; LANES]| {
             let mut chunks = (0..LANES).filter(|&lane| lanes[lane].is_some()).map(|lane| {
                 let place = target[lane] as usize;
@@ -226,6 +232,7 @@ impl LdltLayout {
         let batch = &mut self.batches[at];
         batch.targets = self.targets.len();
         batch.together = together.is_some();
+        batch.reach = reach;
         self.targets.extend(together.unwrap_or_else(|| targets.into_flattened()));
     }
 }
