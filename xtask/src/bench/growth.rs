@@ -27,10 +27,10 @@ pub(super) fn exponents(options: &Options, largest: usize) -> Result<Option<Vec<
     let exponents = SCHEMES.iter().map(|scheme| {
         let ratio = |_| -> Result<f64, TaskError> {
             let [small, large] =
-                [&small, &large].map(|scene| first(scene, scheme, SAMPLES, options.budget()));
+                [&small, &large].map(|scene| first(scene, scheme, SAMPLES, options.budget() / 2.0));
             Ok(large? / small?)
         };
-        let ratios = (0..options.passes()).map(ratio).collect::<Result<_, _>>()?;
+        let ratios = (0..PAIRS * options.passes()).map(ratio).collect::<Result<_, _>>()?;
         Ok(median(ratios).ln() / (largest as f64 / SMALL as f64).ln())
     });
     exponents.collect::<Result<_, _>>().map(Some)
