@@ -105,13 +105,12 @@ def saddle(stiffness, jacobian):
 
 
 def equilibrium(structure):
-    """Newton's method, with half steps where a cable would fall slack or the residual would grow."""
+    """Newton's method in steps of at most 2 cm; what it leaves is printed with the modes."""
     x, multipliers = structure.start.ravel()[structure.free], np.zeros(len(structure.lengths))
     for _ in range(200):
         residual, constraints, stiffness, jacobian = structure.evaluate(x, multipliers)
         system = saddle(stiffness, jacobian)
         step = splu(system).solve(-np.concatenate([residual, constraints]))
-        # No node moves by more than 2 cm at once.
         damping = min(1.0, 0.02 / np.abs(step[: len(x)]).max())
         x = x + damping * step[: len(x)]
         multipliers = multipliers + damping * step[len(x) :]

@@ -79,8 +79,7 @@ pub(crate) struct Modal {
     pub(crate) omega_squared: Vec<f64>,
 }
 
-/// # Errors
-/// No equilibrium, or no modes.
+/// Measures both, each for about `budget` seconds.
 pub(crate) fn modal(stages: usize, budget: f64) -> Result<Modal, TaskError> {
     let model = mast(stages)?.model;
     let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
