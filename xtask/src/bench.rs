@@ -17,7 +17,7 @@ mod floor;
 mod growth;
 mod machine;
 mod memory;
-mod page;
+pub(crate) mod page;
 mod papers;
 mod parts;
 pub(crate) mod scene;

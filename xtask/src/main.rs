@@ -1,8 +1,9 @@
 //! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask defaults`,
-//! `cargo xtask bench`, `cargo xtask instructions`.
+//! `cargo xtask extremes`, `cargo xtask bench`, `cargo xtask instructions`.
 
 mod bench;
 mod defaults;
+mod extremes;
 mod instructions;
 mod layers;
 mod paths;
@@ -43,6 +44,10 @@ enum Task {
     Layers,
     /// Measure what the solvers' default settings cost and give.
     Defaults,
+    /// Take the library to its extremes, axis by axis: right answers, refusals, failures.
+    ///
+    /// Exit code 1 if an answer is wrong in silence, panics or does not end.
+    Extremes(extremes::Options),
     /// Measure steps, analyses, memory, and error against time; compare with the floor program where there is one.
     Bench(bench::Options),
     /// Write the mast of N stages and its converged trajectory into target/bench, for the peers' scripts.
@@ -85,6 +90,7 @@ fn main() -> ExitCode {
         Task::Paths { json } => paths::print(json),
         Task::Layers => layers::check(),
         Task::Defaults => defaults::measure(),
+        Task::Extremes(options) => extremes::follow(&options),
         Task::Bench(options) => bench::bench(&options),
         Task::Mast { stages } => bench::mast(stages),
         Task::Curves(options) => bench::curves(&options),

@@ -1,0 +1,55 @@
+//! `extremes`: one axis after the other is followed until something fails.
+//!
+//! At each value the library must give the right answer, compared with something that does not share its code, or refuse with
+//! a typed error. What is wrong in silence, panics or does not end is a failure of ours: the exit code says so.
+//!
+//! - `axis`: what is followed, and the values on it; `verdict`: what came of one, under guard;
+//! - `page`: `docs/limits.md`;
+//! - one file per group of axes.
+
+mod axis;
+mod page;
+mod stiffness;
+mod verdict;
+
+use std::path::Path;
+
+use clap::Args;
+
+use crate::{TaskError, root};
+use axis::{Axis, Found};
+
+/// Arguments of `extremes`.
+#[derive(Debug, Args)]
+pub(crate) struct Options {
+    /// Only the axes whose title contains this.
+    #[arg(long)]
+    axis: Option<String>,
+    /// Leave out what takes more than some seconds.
+    #[arg(long)]
+    quick: bool,
+    /// Write docs/limits.md.
+    #[arg(long, conflicts_with_all = ["axis", "quick"])]
+    write: bool,
+}
+
+/// All axes in the order of the page.
+fn axes() -> Vec<Axis> {
+    [stiffness::axes()].into_iter().flatten().collect()
+}
+
+/// Follows the axes; true if every answer was right or refused.
+pub(crate) fn follow(options: &Options) -> Result<bool, TaskError> {
+    let wanted = |axis: &Axis| options.axis.as_ref().is_none_or(|part| axis.title.contains(part.as_str()));
+    let mut found = Vec::<Found>::new();
+    for axis in axes().into_iter().filter(wanted) {
+        eprintln!("{}", axis.title);
+        found.push(axis.follow(options.quick));
+    }
+    let text = page::page(&found);
+    println!("{text}");
+    if options.write {
+        std::fs::write(root().join(Path::new("docs/limits.md")), text)?;
+    }
+    Ok(found.iter().all(Found::holds))
+}
