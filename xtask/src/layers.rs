@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::TaskError;
 
 /// Each crate and the workspace crates that it may use, lowest layer first.
-const ALLOWED: [(&str, &[&str]); 15] = [
+const ALLOWED: [(&str, &[&str]); 16] = [
     ("tg-coords", &[]),
     ("tg-sparse", &[]),
     ("tg-model", &["tg-coords", "tg-sparse"]),
@@ -19,6 +19,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     ("tg-integrate", &["tg-model", "tg-sparse"]),
     ("tg-fixtures", &["tg-coords", "tg-model"]),
     ("tg-scene", &["tg-coords", "tg-model"]),
+    ("tg-trade", &["tg-integrate", "tg-model", "tg-scene"]),
     ("tg-report", &[]),
     (
         "tg-cli",
@@ -31,6 +32,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
             "tg-report",
             "tg-scene",
             "tg-statics",
+            "tg-trade",
         ],
     ),
     (

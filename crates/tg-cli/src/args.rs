@@ -73,6 +73,15 @@ Examples:
   tg run scenes/tower.toml --accuracy 1e-6 --force           the step is chosen
   tg run scenes/tower.toml --scheme runge-kutta-8 --tolerance 1e-10 -o exact")]
     Run(Run),
+    /// What accuracy costs: a scene's motion by every scheme, at finer and finer steps or tolerances.
+    ///
+    /// True errors of positions, tensions and energy, against a motion that is much finer and states its own uncertainty, and
+    /// processor time; the cheapest setting for each power of ten, and the one for an accuracy.
+    #[command(after_help = "\
+Examples:
+  tg trade scenes/double_pendulum.toml                       which scheme and step reaches which error
+  tg trade scenes/icosahedron.toml --accuracy 1e-6 -o cost   for 1e-6 m; with plots")]
+    Trade(Trade),
     /// All equilibria of a small structure, each proved, with their stability.
     ///
     /// Every spring counts as a two-way one; the answer says at which equilibria a cable that only pulls would be short. The
@@ -258,6 +267,29 @@ pub(crate) struct Run {
     /// No view.html.
     #[arg(long)]
     pub(crate) no_view: bool,
+}
+
+/// `tg trade`
+#[derive(Debug, Args)]
+pub(crate) struct Trade {
+    #[command(flatten)]
+    pub(crate) scene: SceneArgs,
+    /// Position error that the recommendation is for [m]; the scene's, or a thousandth of the largest displacement, unless
+    /// given.
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub(crate) accuracy: Option<f64>,
+    /// Simulated time [s].
+    #[arg(long, value_name = "S", value_parser = positive)]
+    pub(crate) duration: Option<f64>,
+    /// Only this scheme; may be given several times.
+    #[arg(long, value_name = "NAME", value_parser = schemes())]
+    pub(crate) scheme: Vec<Scheme>,
+    /// Processor time that a single run may take [s].
+    #[arg(long, value_name = "S", default_value_t = 2.0, value_parser = positive)]
+    pub(crate) budget: f64,
+    /// Write trade.json, trade.csv and a plot for each quantity into this folder.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 /// `tg equilibria`

@@ -9,6 +9,7 @@ mod run;
 mod show;
 mod statics;
 mod sweep;
+mod trade;
 
 pub(crate) use check::check;
 pub(crate) use equilibria::equilibria;
@@ -19,6 +20,7 @@ pub(crate) use run::run;
 pub(crate) use show::{export, plot, view};
 pub(crate) use statics::statics;
 pub(crate) use sweep::sweep;
+pub(crate) use trade::trade;
 
 /// Calls a function of `Structure<D>` for the dimension that a scene has.
 macro_rules! with_structure {

@@ -30,6 +30,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Statics(given) => command::statics(given),
         Command::Modes(given) => command::modes(given),
         Command::Run(given) => command::run(given),
+        Command::Trade(given) => command::trade(given),
         Command::Equilibria(given) => command::equilibria(given),
         Command::Sweep(given) => command::sweep(given),
         Command::View(given) => command::view(given),

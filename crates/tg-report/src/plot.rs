@@ -48,6 +48,9 @@ pub struct Axis {
     pub label: String,
     /// Unit; "" or "1" for a plain number.
     pub unit: String,
+    /// By powers of ten, in files: values that are not positive are gaps. The viewer's axes are linear.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub logarithmic: bool,
 }
 
 /// One curve.
@@ -58,6 +61,9 @@ pub struct Series {
     /// As many values as the abscissa has; NaN is a gap.
     #[serde(deserialize_with = "with_gaps")]
     pub values: Vec<f64>,
+    /// Its own abscissa where the curves have none in common, in files: as many values as the curve has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Vec<f64>>,
 }
 
 impl Plot {
@@ -66,24 +72,46 @@ impl Plot {
     /// # Errors
     /// A curve has not.
     pub fn check(&self) -> Result<(), ReportError> {
-        let expected = self.at.len();
-        let wrong = self.series.iter().find(|s| s.values.len() != expected);
+        let wrong = self.series.iter().find(|s| s.values.len() != self.at_of(s).len());
         wrong.map_or(Ok(()), |s| {
             let what = format!("values of {:?} in the plot {:?}", s.name, self.title);
-            Err(ReportError::Count { what, got: s.values.len(), expected })
+            Err(ReportError::Count { what, got: s.values.len(), expected: self.at_of(s).len() })
         })
+    }
+
+    /// The abscissa of a curve: its own, or the common one.
+    pub(crate) fn at_of<'p>(&'p self, series: &'p Series) -> &'p [f64] {
+        series.at.as_deref().unwrap_or(&self.at)
     }
 }
 
 impl Axis {
     /// An axis from quantity and unit.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Self { label: label.into(), unit: unit.into() }
+        Self { label: label.into(), unit: unit.into(), logarithmic: false }
+    }
+
+    /// The same by powers of ten.
+    #[must_use]
+    pub fn logarithmic(self) -> Self {
+        Self { logarithmic: true, ..self }
     }
 
     /// "tension \[N\]", or the quantity alone for a plain number.
     pub fn text(&self) -> String {
         label(&self.label, &self.unit)
+    }
+}
+
+impl Series {
+    /// A curve over the common abscissa.
+    pub fn new(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), values, at: None }
+    }
+
+    /// A curve over its own.
+    pub fn over(name: impl Into<String>, at: Vec<f64>, values: Vec<f64>) -> Self {
+        Self { at: Some(at), ..Self::new(name, values) }
     }
 }
 

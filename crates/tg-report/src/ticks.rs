@@ -38,6 +38,6 @@ fn text(x: f64, step: f64, largest: f64) -> String {
 }
 
 /// A true minus sign.
-fn minus(text: String) -> String {
+pub(crate) fn minus(text: String) -> String {
     text.replace('-', "\u{2212}")
 }

@@ -1,12 +1,9 @@
 //! `tg run`: the motion of a scene, streamed into a results folder.
 
-mod accuracy;
 mod channels;
 mod method;
 mod outcome;
 mod recording;
-mod tolerance;
-mod trial;
 
 use std::path::{Path, PathBuf};
 
@@ -14,6 +11,7 @@ use serde_json::{Value, json};
 use tg_integrate::Run as Integration;
 use tg_report::{Existing, Formats, Kind, Manifest, Results, ResultsWriter, write_glb, write_vtk};
 use tg_scene::{Format, RunSettings, Structure};
+use tg_trade::{Choice, Method};
 
 use super::with_structure;
 use crate::answer::{Answer, Failure};
@@ -26,7 +24,7 @@ use channels::Channels;
 use outcome::counts;
 use recording::{Checkpoint, Recording};
 
-pub(crate) use method::Method;
+pub(crate) use method::method;
 pub(crate) use outcome::{doubts, ended};
 
 pub(crate) fn run(arguments: &Run) -> Result<Answer, Failure> {
@@ -93,9 +91,9 @@ fn simulate<const D: usize>(
     let channels = Channels::new(structure, settings)?;
     let earlier = arguments.resume.then(|| checkpoint(loaded, &folder, arguments)).transpose()?;
     let resumed = earlier.as_ref().map(|earlier| earlier.state.t);
-    let (method, evidence) = match &earlier {
-        Some(earlier) => (earlier.method, Value::Null),
-        None => Method::of(structure, settings)?,
+    let (method, choice) = match &earlier {
+        Some(earlier) => (earlier.method, None),
+        None => method(structure, settings)?,
     };
     let model = &structure.model;
     let mut stepper = method.stepper(model).map_err(Failure::analysis)?;
@@ -103,7 +101,7 @@ fn simulate<const D: usize>(
         let writer = ResultsWriter::resume(&folder, formats, state.t)?;
         (state, writer)
     } else {
-        let manifest = describe(loaded, settings, &method, evidence, &channels, &painter);
+        let manifest = describe(loaded, settings, &method, choice.as_ref(), &channels, &painter);
         let existing = if arguments.force { Existing::Replace } else { Existing::Keep };
         let writer = ResultsWriter::create(&folder, manifest, formats, existing)?;
         let state = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
@@ -117,7 +115,8 @@ fn simulate<const D: usize>(
     let (summary, why) = ended(outcome);
     let mut warnings = remarks(structure);
     warnings.extend(doubts(&summary, &method));
-    let counts = counts(&summary, &state);
+    let mut counts = counts(&summary, &state);
+    counts["estimated_error"] = json!(choice.as_ref().map(|choice| choice.error));
     recording.finish(&state, &counts, &warnings, why.clone())?;
     other_formats(&folder, settings)?;
     if !arguments.no_view {
@@ -130,8 +129,15 @@ fn simulate<const D: usize>(
         "interrupted": why,
         "summary": counts,
     });
-    let (steps, words) = (summary.steps, method.words());
+    let (steps, words) = (summary.steps, method::words(&method));
     let mut text = format!("{}: {steps} steps of {words} to t = {} s\n", loaded.title(), state.t);
+    if let (Some(choice), None) = (&choice, &why) {
+        let error = choice.error;
+        text += &format!(
+            "chosen by {} trials; positions are exact to about {error:.1e} m\n",
+            choice.trials.len()
+        );
+    }
     text +=
         &if arguments.no_view { format!("results in {}\n", folder.display()) } else { told(Some(&folder)) };
     let mut answer = Answer::new(document, text).warn(warnings);
@@ -143,7 +149,7 @@ fn describe<const D: usize>(
     loaded: &Loaded,
     settings: &RunSettings,
     method: &Method,
-    evidence: Value,
+    choice: Option<&Choice>,
     channels: &Channels<'_, D>,
     painter: &Painter<'_, D>,
 ) -> Manifest {
@@ -153,7 +159,7 @@ fn describe<const D: usize>(
         "step": method.step,
         "tolerance": method.tolerance,
         "accuracy": settings.accuracy,
-        "step_chosen_by": evidence,
+        "step_chosen_by": choice,
         "scheme": method.scheme,
         "every": settings.every,
         "frame_rate": settings.frame_rate,

@@ -2,12 +2,14 @@
 
 mod axes;
 mod curves;
+mod scale;
 mod strips;
 
-use super::{Plot, PlotKind};
+use super::{Plot, PlotKind, Series};
 use crate::canvas::{Anchor, Canvas, Pixels, Point, Svg, Text};
 use crate::error::ReportError;
 use axes::Frame;
+use scale::Scale;
 
 /// Sizes of text \[px\].
 const TITLE: f64 = 16.0;
@@ -42,8 +44,9 @@ impl Plot {
 
     fn draw(&self, canvas: &mut dyn Canvas, [width, height]: Point) -> Result<(), ReportError> {
         self.check()?;
-        let some = |values: &[f64]| values.iter().any(|&x| drawable(x));
-        if !some(&self.at) || !self.series.iter().any(|s| some(&s.values)) {
+        let (x, y) = (Scale::of(&self.x), Scale::of(&self.y));
+        let some = |s: &Series| self.at_of(s).iter().any(|&v| x.has(v)) && s.values.iter().any(|&v| y.has(v));
+        if !self.series.iter().any(some) {
             let reason = "there is no finite value".into();
             return Err(ReportError::Empty { what: format!("the plot {:?}", self.title), reason });
         }

@@ -20,9 +20,9 @@ impl Plot {
         let abscissa = table.channels.first()?;
         let (title, quantity) = names(&first.group);
         let suffix = common_suffix(channels.iter().map(|&k| table.channels[k].name.as_str()));
-        let series = channels.iter().map(|&k| Series {
-            name: table.channels[k].name.strip_suffix(&suffix).unwrap_or_default().into(),
-            values: table.columns[k].clone(),
+        let series = channels.iter().map(|&k| {
+            let name = table.channels[k].name.strip_suffix(&suffix).unwrap_or_default();
+            Series::new(name, table.columns[k].clone())
         });
         Some(Self {
             title,

@@ -161,7 +161,7 @@ fn plots_name_axes_and_curves() {
 #[test]
 fn ticks_are_round_and_have_the_digits_they_need() {
     let ticks = |low: f64, high: f64| {
-        let series = vec![Series { name: String::new(), values: vec![0.25; 2] }];
+        let series = vec![Series::new("", vec![0.25; 2])];
         let (x, y) = (Axis::new("x", ""), Axis::new("y", ""));
         let (title, kind, time, at) = (String::new(), PlotKind::Lines, false, vec![low, high]);
         let text = Plot { title, kind, x, y, time, at, series }.svg([560.0, 300.0]).unwrap();
@@ -203,10 +203,7 @@ fn odd_plots_are_drawn_or_refused() {
         series: values
             .iter()
             .enumerate()
-            .map(|(k, v)| Series {
-                name: format!("series {k} of many, with a long name"),
-                values: v.to_vec(),
-            })
+            .map(|(k, v)| Series::new(format!("series {k} of many, with a long name"), v.to_vec()))
             .collect(),
     };
     for kind in [PlotKind::Lines, PlotKind::Points, PlotKind::Strips] {
@@ -230,4 +227,33 @@ fn odd_plots_are_drawn_or_refused() {
         let short = plot(kind, &[0.0, 1.0], &[&[0.0]]);
         assert!(matches!(short.svg([500.0, 300.0]), Err(ReportError::Count { got: 1, expected: 2, .. })));
     }
+}
+
+#[test]
+fn logarithmic_axes_are_divided_by_powers_of_ten() {
+    let (x, y) = (Axis::new("time", "s").logarithmic(), Axis::new("error", "m").logarithmic());
+    let line = |name: &str, at: &[f64], values: &[f64]| Series::over(name, at.to_vec(), values.to_vec());
+    let series = vec![
+        // On a line of slope -2 in powers of ten, beside values that have no place.
+        line("second order", &[1e-3, 1e-2, 1e-1, 1.0], &[1e-1, 1e-3, 1e-5, 1e-7]),
+        line("gaps", &[1e-2, 1e-1, 1.0], &[0.0, -1.0, 1e-4]),
+    ];
+    let plot =
+        Plot { title: "errors".into(), kind: PlotKind::Lines, x, y, time: false, at: Vec::new(), series };
+    let text = plot.svg([900.0, 500.0]).unwrap();
+    let document = Document::parse(&text).unwrap();
+    let texts = texts(&document);
+    for expected in ["1e\u{2212}3", "1e\u{2212}2", "1e0", "1e\u{2212}6", "time [s]", "error [m]"] {
+        assert!(texts.iter().any(|t| t == expected), "{expected} in {texts:?}");
+    }
+    let is_curve = |path: &&str| path.matches('L').count() == 3;
+    let path = document.descendants().filter_map(|n| n.attribute("d")).find(is_curve).unwrap();
+    let numbers: Vec<f64> = path.split(['M', 'L', ' ']).filter_map(|x| x.parse().ok()).collect();
+    let points: Vec<_> = numbers.chunks(2).collect();
+    let slopes: Vec<_> = points.windows(2).map(|p| (p[1][1] - p[0][1]) / (p[1][0] - p[0][0])).collect();
+    assert!(slopes.iter().all(|slope| *slope > 0.0 && (slope / slopes[0] - 1.0).abs() < 1e-2), "{path}");
+    // The one point that has a place.
+    assert_eq!(document.descendants().filter(|n| n.has_tag_name("circle")).count(), 1);
+    let empty = Plot { series: vec![line("none", &[1.0], &[-1.0])], ..plot };
+    assert!(matches!(empty.svg([900.0, 500.0]), Err(ReportError::Empty { .. })));
 }

@@ -91,7 +91,7 @@ fn thinning_keeps_ends_peaks_and_gaps() {
     values[50_000..60_000].fill(f64::NAN);
     values[99_999] = 2.0;
     let at: Vec<f64> = (0..values.len()).map(|k| k as f64).collect();
-    let series = vec![Series { name: "a".into(), values }];
+    let series = vec![Series::new("a", values)];
     let axis = Axis::new("t", "s");
     let plot =
         Plot { title: "p".into(), kind: PlotKind::Lines, x: axis.clone(), y: axis, time: true, at, series };

@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 use tg_integrate::{Ended, RunError, State, Summary};
-
-use super::method::Method;
+use tg_trade::Method;
 
 /// The totals of a run, and why it did not come to its end.
 pub(crate) fn ended(outcome: Result<Summary, RunError>) -> (Summary, Option<String>) {

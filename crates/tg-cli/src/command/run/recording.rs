@@ -9,9 +9,9 @@ use serde_json::Value;
 use tg_integrate::{Observer, State, StepReport};
 use tg_report::ResultsWriter;
 use tg_scene::RunSettings;
+use tg_trade::Method;
 
 use super::channels::Channels;
-use super::method::Method;
 use crate::answer::Failure;
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, bar};

@@ -104,9 +104,9 @@ where
     // The k-th lowest stable and the k-th lowest other equilibrium.
     let most = |stable: bool| samples.iter().map(|(_, r)| of(r, stable).len()).max().unwrap_or(0);
     let series = [true, false].into_iter().flat_map(|stable| (0..most(stable)).map(move |k| (stable, k)));
-    let series = series.map(|(stable, k)| Series {
-        name: format!("{} {}", if stable { "stable" } else { "unstable" }, k + 1),
-        values: samples.iter().map(|(_, r)| of(r, stable).get(k).copied().unwrap_or(f64::NAN)).collect(),
+    let series = series.map(|(stable, k)| {
+        let values = samples.iter().map(|(_, r)| of(r, stable).get(k).copied().unwrap_or(f64::NAN));
+        Series::new(format!("{} {}", if stable { "stable" } else { "unstable" }, k + 1), values.collect())
     });
     let series = series.collect();
     Ok(Found { samples, folds: None, series, remarks: Vec::new() })
@@ -139,7 +139,7 @@ fn by_rest_length<const D: usize>(
             energies[point.sample] = swept.at(point).energy;
         }
         let kind = if curve.stable { "stable" } else { "unstable" };
-        Series { name: format!("{kind} {k}"), values: energies }
+        Series::new(format!("{kind} {k}"), energies)
     });
     let series = series.collect();
     let mut remarks = Vec::new();

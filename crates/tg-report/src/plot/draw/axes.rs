@@ -1,18 +1,19 @@
 //! Axes with ticks, a light grid and labels.
 
+use super::scale::Scale;
 use super::{LABEL, TICK};
 use crate::canvas::{Anchor, Canvas, INK, Point, Stroke, Text, width};
 use crate::colour::Colour;
-use crate::ticks::ticks;
 
 const GRID: Colour = [228, 228, 228];
 
-/// Where values are on the picture.
+/// Where places along the axes are on the picture.
 pub(super) struct Frame {
     /// Upper left and lower right corner \[px\].
     pub(super) corners: [Point; 2],
     pub(super) x: [f64; 2],
     pub(super) y: [f64; 2],
+    pub(super) scales: [Scale; 2],
 }
 
 impl Frame {
@@ -30,7 +31,7 @@ impl Frame {
     pub(super) fn abscissa(&self, canvas: &mut dyn Canvas, label: &str) {
         let [[left, top], [right, bottom]] = self.corners;
         let wanted = ((right - left) / 90.0).clamp(2.0, 10.0) as usize;
-        for (value, text) in ticks(self.x[0], self.x[1], wanted) {
+        for (value, text) in self.scales[0].ticks(self.x, wanted) {
             let x = self.x(value);
             canvas.line(&[[x, top], [x, bottom]], Stroke::plain(1.0, GRID), "");
             canvas.line(&[[x, bottom], [x, bottom + 5.0]], Stroke::plain(1.0, INK), "");
@@ -45,7 +46,7 @@ impl Frame {
     pub(super) fn ordinate(&self, canvas: &mut dyn Canvas, label: &str) {
         let [[left, top], [right, bottom]] = self.corners;
         let mut widest = 0.0_f64;
-        for (value, text) in ordinates(self.y, bottom - top) {
+        for (value, text) in ordinates(self.scales[1], self.y, bottom - top) {
             let y = self.y(value);
             canvas.line(&[[left, y], [right, y]], Stroke::plain(1.0, GRID), "");
             canvas.line(&[[left - 5.0, y], [left, y]], Stroke::plain(1.0, INK), "");
@@ -59,6 +60,6 @@ impl Frame {
 }
 
 /// Ticks of an ordinate of this height \[px\].
-pub(super) fn ordinates(range: [f64; 2], height: f64) -> Vec<(f64, String)> {
-    ticks(range[0], range[1], (height / 60.0).clamp(2.0, 8.0) as usize)
+pub(super) fn ordinates(scale: Scale, range: [f64; 2], height: f64) -> Vec<(f64, String)> {
+    scale.ticks(range, (height / 60.0).clamp(2.0, 8.0) as usize)
 }

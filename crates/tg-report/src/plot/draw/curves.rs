@@ -1,7 +1,8 @@
 //! Lines and points with a legend.
 
 use super::axes::ordinates;
-use super::{Frame, LABEL, TICK, drawable, fitted, range, widened};
+use super::scale::Scale;
+use super::{Frame, LABEL, TICK, fitted};
 use crate::canvas::{Anchor, Canvas, Point, Stroke, Text, width};
 use crate::colour::{Colour, SERIES};
 use crate::plot::{Plot, PlotKind};
@@ -16,15 +17,17 @@ const NAMES: f64 = 200.0;
 const DENSITY: f64 = 4.0;
 
 pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, bottom]]: [Point; 2]) {
-    let y = widened(range(plot.series.iter().flat_map(|s| &s.values)), 0.04);
-    let texts = ordinates(y, bottom - top);
+    let scales @ [across, upwards] = [Scale::of(&plot.x), Scale::of(&plot.y)];
+    let y = upwards.span(plot.series.iter().flat_map(|s| &s.values), 0.04);
+    let texts = ordinates(upwards, y, bottom - top);
     let widest = texts.iter().map(|(_, text)| width(text, TICK, false)).fold(0.0, f64::max);
     let left = left + LABEL + 18.0 + widest;
     let names = plot.series.iter().map(|s| width(&s.name, TICK, false)).fold(0.0, f64::max).min(NAMES);
     let legend = if names > 0.0 { names + SAMPLE + 26.0 } else { 12.0 };
     let right = (right - legend).max(left + 60.0);
-    let x = widened(range(plot.at.iter()), if plot.kind == PlotKind::Points { 0.03 } else { 0.0 });
-    let frame = Frame { corners: [[left, top], [right, bottom]], x, y };
+    let room = if plot.kind == PlotKind::Points || across.is_logarithmic() { 0.03 } else { 0.0 };
+    let x = across.span(plot.series.iter().flat_map(|s| plot.at_of(s)), room);
+    let frame = Frame { corners: [[left, top], [right, bottom]], x, y, scales };
     frame.abscissa(canvas, &plot.x.text());
     frame.ordinate(canvas, &plot.y.text());
     let thin = match plot.kind {
@@ -33,8 +36,10 @@ pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, b
     };
     // The first curves, which the legend names in any case, are drawn last.
     for (k, series) in thin.series.iter().enumerate().rev() {
-        let points = thin.at.iter().zip(&series.values);
-        let points = points.map(|(&x, &y)| (drawable(x) && drawable(y)).then(|| [frame.x(x), frame.y(y)]));
+        let points = thin.at_of(series).iter().zip(&series.values).map(|(&x, &y)| {
+            let place = [frame.x(across.place(x)), frame.y(upwards.place(y))];
+            (across.has(x) && upwards.has(y)).then_some(place)
+        });
         curve(canvas, &points.collect::<Vec<_>>(), plot.kind, k);
     }
     if names > 0.0 {

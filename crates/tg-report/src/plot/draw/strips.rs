@@ -1,5 +1,6 @@
 //! When something is the case: a row for each series, a bar where it is 1.
 
+use super::scale::Scale;
 use super::{Frame, TICK, drawable, fitted, range, widened};
 use crate::canvas::{Anchor, Canvas, Point, Stroke, Text, width};
 use crate::colour::{Colour, SERIES};
@@ -13,7 +14,8 @@ const SHARES: f64 = 56.0;
 pub(super) fn draw(plot: &Plot, canvas: &mut dyn Canvas, [[left, top], [right, bottom]]: [Point; 2]) {
     let names = plot.series.iter().map(|s| width(&s.name, TICK, false)).fold(0.0, f64::max).min(NAMES);
     let corners = [[left + names + 10.0, top], [right - SHARES, bottom]];
-    let frame = Frame { corners, x: widened(range(plot.at.iter()), 0.0), y: [0.0, 1.0] };
+    let frame =
+        Frame { corners, x: widened(range(plot.at.iter()), 0.0), y: [0.0, 1.0], scales: [Scale::LINEAR; 2] };
     frame.abscissa(canvas, &plot.x.text());
     let [[left, _], [right, _]] = frame.corners;
     let row = (bottom - top) / plot.series.len() as f64;

@@ -3,12 +3,13 @@
 use serde::Serialize;
 use tg_integrate::Run as Integration;
 use tg_scene::{RunSettings, Structure};
+use tg_trade::Method;
 
 use super::super::{Dimensioned, at, parameters};
 use super::extremes::{Extreme, Extremes};
 use crate::answer::Failure;
 use crate::args::Sweep;
-use crate::command::run::{Method, doubts, ended};
+use crate::command::run::{doubts, ended, method};
 use crate::loading::Loaded;
 use crate::progress::INTERRUPTED;
 
@@ -98,7 +99,7 @@ fn simulate<const D: usize>(
     settings: &RunSettings,
 ) -> Result<(Seen, Option<String>, Vec<String>), Failure> {
     let model = &structure.model;
-    let (method, _) = Method::of(structure, settings)?;
+    let (method, _) = method(structure, settings)?;
     let mut stepper = method.stepper(model).map_err(Failure::analysis)?;
     let start = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
     let mut state = start.map_err(Failure::analysis)?;
