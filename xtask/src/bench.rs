@@ -9,13 +9,13 @@
 //! - `sizes`, `papers`, `accuracy`: the tables; `export`: the mast for other tools.
 
 mod accuracy;
-mod clock;
+pub(crate) mod clock;
 mod converged;
 mod curve;
 mod export;
 mod floor;
 mod growth;
-mod machine;
+pub(crate) mod machine;
 mod memory;
 pub(crate) mod page;
 mod papers;
@@ -35,6 +35,9 @@ use scene::MastRun;
 
 pub(crate) use machine::rustc;
 pub(crate) use memory::in_child as peak_memory;
+
+/// The page that is written.
+const PAGE: &str = "docs/performance.md";
 
 /// Arguments of `bench`.
 #[derive(Debug, Args)]
@@ -98,7 +101,7 @@ pub(crate) fn bench(options: &Options) -> Result<bool, TaskError> {
     }
     println!("{text}");
     if options.write {
-        page::insert("bench", &text)?;
+        page::insert(PAGE, "bench", &text)?;
     }
     Ok(true)
 }

@@ -14,18 +14,23 @@ use comfy_table::{Table, presets};
 
 use crate::TaskError;
 
-/// Prints one table per setting; always true.
-pub(crate) fn measure() -> Result<bool, TaskError> {
+/// One table per setting, its title before the colon as a heading.
+pub(crate) fn section() -> Result<String, TaskError> {
     let tables = [stepping::tables()?, eigen::tables()?, equilibrium::tables()?, homotopy::tables()?];
-    for (title, table) in tables.into_iter().flatten() {
-        println!("{title}\n\n{table}\n");
-    }
-    Ok(true)
+    let sections = tables.into_iter().flatten().map(|(title, table)| {
+        let (heading, rest) = title.split_once(": ").unwrap_or((title, ""));
+        let mut rest = rest.to_string();
+        if let Some(first) = rest.get_mut(..1) {
+            first.make_ascii_uppercase();
+        }
+        format!("### {heading}\n\n{rest}\n\n{table}\n")
+    });
+    Ok(sections.collect::<Vec<_>>().join("\n"))
 }
 
 fn plain<const N: usize>(header: [&str; N]) -> Table {
     let mut table = Table::new();
-    table.load_preset(presets::NOTHING);
+    table.load_preset(presets::ASCII_MARKDOWN);
     table.set_header(header);
     table
 }

@@ -7,6 +7,8 @@
 //! (but no AVX-512) and the compiler chooses the code, so a count is compared only with one of the same compiler and
 //! instruction sets; elsewhere counts are printed and not compared.
 
+pub(crate) mod features;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +21,10 @@ use crate::bench::rustc;
 use crate::bench::scene::Scene;
 use crate::bench::scheme::{Dial, SCHEMES};
 use crate::{TaskError, root};
+use features::Watched;
 
+/// Where counts are stored.
+const BASELINE: &str = "xtask/instructions.json";
 /// The task that runs under callgrind.
 const TASK: &str = "counted-steps";
 /// The function whose instructions are counted; callgrind knows it by this name.
@@ -30,6 +35,9 @@ const SETS: [&str; 3] = ["avx2", "fma", "bmi2"];
 const TOLERANCE: f64 = 0.02;
 /// Steps before the counted ones: past the start a step has its usual iterations.
 const BEFORE: u32 = 3;
+
+/// Counted steps of each variant.
+const FEATURE_STEPS: u32 = 50;
 
 /// Instructions per step, by structure and scheme, and what they depend on.
 #[derive(Deserialize, Serialize)]
@@ -45,9 +53,15 @@ fn scenes() -> Result<[(Scene, u32); 3], TaskError> {
     Ok([(Scene::mast(8)?, 20), (Scene::mast(32)?, 8), (Scene::example3()?, 20)])
 }
 
+/// The stored counts of a structure, or of the group of features.
+pub(crate) fn stored(group: &str) -> Result<BTreeMap<String, u64>, TaskError> {
+    let mut baseline: Baseline = serde_json::from_slice(&fs::read(root().join(BASELINE))?)?;
+    Ok(baseline.per_step.remove(group).ok_or("no counts of that name are stored")?)
+}
+
 /// Counts and compares, or stores the counts; true if none has grown.
 pub(crate) fn check(bless: bool) -> Result<bool, TaskError> {
-    let path = root().join("xtask/instructions.json");
+    let path = root().join(BASELINE);
     let now = count()?;
     if bless {
         fs::write(&path, serde_json::to_string_pretty(&now)? + "\n")?;
@@ -150,6 +164,17 @@ pub(crate) fn in_child() -> Result<bool, TaskError> {
             counted_steps(stepper.as_mut(), &mut state, steps)?;
             println!("{steps}\t{}\t{}", scene.name, scheme.name);
         }
+    }
+    for variant in features::variants()? {
+        let (mut stepper, (q, v)) = (Watched::new(&variant)?, variant.model.start());
+        let mut state = stepper.start(0.0, &q, &v)?;
+        for _ in 0..BEFORE {
+            stepper.step(&mut state, Dial::PAPER.step())?;
+        }
+        counted_steps(&mut stepper, &mut state, FEATURE_STEPS)?;
+        // What was seen must be used.
+        assert!(stepper.seen.is_finite());
+        println!("{FEATURE_STEPS}\t{}\t{}", features::GROUP, variant.name);
     }
     Ok(true)
 }

@@ -52,14 +52,18 @@ const ALLOWED: [(&str, &[&str]); 16] = [
         "xtask",
         &[
             "tg-cases",
+            "tg-coords",
             "tg-equilibria",
             "tg-fixtures",
             "tg-integrate",
             "tg-modal",
             "tg-model",
+            "tg-report",
+            "tg-scene",
             "tg-sparse",
             "tg-statics",
             "tg-tangent",
+            "tg-trade",
         ],
     ),
 ];

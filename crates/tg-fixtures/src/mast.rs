@@ -8,7 +8,7 @@
 
 mod scene;
 
-use tg_model::{BuildError, CableLaw, Joining, Model, ModelBuilder, Place};
+use tg_model::{BuildError, CableLaw, Joining, MemberId, Model, ModelBuilder, Place};
 
 pub use scene::{MastCable, MastScene};
 
@@ -35,13 +35,24 @@ impl Mast {
     /// # Errors
     /// A mast without stages has nothing that is free.
     pub fn build(scene: &MastScene) -> Result<Self, BuildError> {
+        Self::build_with(scene, |b, name, lower, upper| b.bar(name, MastScene::BAR_MASS, lower, upper))
+    }
+
+    /// The same with members of another kind for the bars: from a name and two ends \[m\], which are their first two nodes.
+    ///
+    /// # Errors
+    /// As [`Mast::build`], and those of the members.
+    pub fn build_with(
+        scene: &MastScene,
+        mut bar: impl FnMut(&mut ModelBuilder<3>, &str, [f64; 3], [f64; 3]) -> Result<MemberId, BuildError>,
+    ) -> Result<Self, BuildError> {
         let mut b = ModelBuilder::<3>::new();
         b.gravity([0.0, 0.0, -MastScene::GRAVITY])?;
         let mut places: Vec<Option<Place<3>>> = vec![None; scene.nodes.len()];
         for (k, &[lower, upper]) in scene.bars.iter().enumerate() {
             let (s, j) = (k / 3, k % 3);
             let name = format!("bar {s}.{j}");
-            let bar = b.bar(&name, MastScene::BAR_MASS, scene.nodes[lower], scene.nodes[upper])?;
+            let bar = bar(&mut b, &name, scene.nodes[lower], scene.nodes[upper])?;
             match places[lower] {
                 Some(below) => {
                     b.joint(&format!("node {s}.{j}"), &[below, bar.node(0)], Joining::Share)?;

@@ -39,11 +39,14 @@ pub struct NewtonOptions {
     /// How often the symplectic scheme may halve a step that fails. On the tower with damped slacking cables one suffices
     /// (`cargo xtask defaults`); the others are in reserve.
     pub halvings: u32,
+    /// Whether the symplectic scheme keeps factors of the Newton matrix over iterations and steps. Without, each iteration
+    /// has its own, as Algorithm 1 of the framework paper is printed (docs/accuracy-and-speed.md, "Kept factors").
+    pub keep_factors: bool,
 }
 
 impl Default for NewtonOptions {
     fn default() -> Self {
-        Self { tolerance: 1e-12, max_iterations: 20, freeze_after: 6, halvings: 5 }
+        Self { tolerance: 1e-12, max_iterations: 20, freeze_after: 6, halvings: 5, keep_factors: true }
     }
 }
 

@@ -75,6 +75,7 @@ fn trial<const D: usize>(
     match run() {
         // Ctrl-C ends the search, not only the trial.
         Err(TrialError::Cancelled) => Err(ChoiceError::Cancelled),
+        Err(error @ TrialError::TooLong { .. }) => Err(ChoiceError::TooLong(error)),
         trial => Ok(trial),
     }
 }

@@ -32,6 +32,9 @@ pub enum ChoiceError {
     /// The accuracy is not a positive number.
     #[error("the accuracy is {0} m; it must be positive and finite")]
     Accuracy(f64),
+    /// A trial took longer than it was given; finer ones would, too.
+    #[error(transparent)]
+    TooLong(TrialError),
     /// No trial came near enough.
     #[error(
         "no {tried} reaches an error of {accuracy} m{}; {mend}",

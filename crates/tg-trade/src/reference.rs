@@ -17,6 +17,8 @@ use crate::subject::{LOOKS, Subject};
 const TOLERANCES: std::ops::RangeInclusive<i32> = 7..=13;
 /// Steps of the coarsest symplectic run: a multiple of [`LOOKS`].
 const COARSEST: u64 = 4 * LOOKS as u64;
+/// Steps from which a failure is final.
+const FINEST: u64 = 1 << 20;
 /// Rounding of the sums of some thousand steps, relative.
 const ROUNDING: f64 = 1e-13;
 
@@ -116,13 +118,17 @@ fn by_tolerance<const D: usize>(subject: &Subject<'_, D>) -> Result<Candidate, T
 fn by_steps<const D: usize>(subject: &Subject<'_, D>) -> Result<Candidate, TrialError> {
     let run = |steps: u64| subject.motion(&Method::fixed(Scheme::Symplectic, subject.end() / steps as f64));
     // Rows of Romberg's scheme: the motion itself, then one power of h² less each.
-    let mut row: Vec<Motion> = vec![run(COARSEST)?];
+    let mut row: Vec<Motion> = Vec::new();
     let mut best: Option<Candidate> = None;
     let mut steps = COARSEST;
     loop {
-        steps *= 2;
         let motion = match run(steps) {
             Ok(motion) => motion,
+            // A long step may fail where a shorter one does not.
+            Err(TrialError::Step(_)) if best.is_none() && steps < FINEST => {
+                steps *= 2;
+                continue;
+            }
             Err(error) => return best.ok_or(error),
         };
         let mut next = vec![motion];
@@ -137,5 +143,6 @@ fn by_steps<const D: usize>(subject: &Subject<'_, D>) -> Result<Candidate, Trial
             best = better(best, Candidate { motion: finer.clone(), uncertainty, by });
         }
         row = next;
+        steps *= 2;
     }
 }

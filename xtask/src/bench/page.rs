@@ -1,13 +1,13 @@
-//! `docs/performance.md`: tables between markers are generated, the rest is written by hand.
+//! Pages of `docs`: tables between markers are generated, the rest is written by hand.
 
 use std::fmt::Write as _;
 use std::fs;
 
 use crate::{TaskError, root};
 
-/// Replaces what stands between the markers of `part`.
-pub(crate) fn insert(part: &str, text: &str) -> Result<(), TaskError> {
-    let path = root().join("docs/performance.md");
+/// Replaces what stands between the markers of `part` on a page.
+pub(crate) fn insert(page: &str, part: &str, text: &str) -> Result<(), TaskError> {
+    let path = root().join(page);
     let page = fs::read_to_string(&path)?;
     let (start, end) = (format!("<!-- {part}: generated -->\n"), format!("<!-- {part}: end -->"));
     let (Some(from), Some(to)) = (page.find(&start), page.find(&end)) else {

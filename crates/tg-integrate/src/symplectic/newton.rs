@@ -93,7 +93,7 @@ impl Symplectic<'_> {
                 self.factor_and_solve(state, h, frozen)
             };
             solved.map_err(|error| self.failed(Failure::Solver(error), iterations, scale))?;
-            has_factors = true;
+            has_factors = self.options.keep_factors;
             correction = self.correct();
         }
     }
@@ -114,7 +114,7 @@ impl Symplectic<'_> {
             return Err(self.failed(Failure::NotConverged, iterations, scale));
         }
         self.finish(state, h).map_err(|error| self.failed(Failure::Projection(error), iterations, scale))?;
-        self.keep(state, h, frozen || iterations > KEEP_UP_TO);
+        self.keep(state, h, frozen || iterations > KEEP_UP_TO || !self.options.keep_factors);
         Ok(Converged { frozen: frozen && forced == 0, forced, ..converged })
     }
 
