@@ -1,6 +1,6 @@
 //! `defaults`: what the default settings of the solvers cost and give.
 //!
-//! - `stepping`: tolerance and remedies of a time step;
+//! - `stepping`: remedies of a time step, tolerance of explicit ones;
 //! - `eigen`: dense or sparse eigenpairs, the limit of zero;
 //! - `equilibrium`: tolerance of forward statics, steps of continuation;
 //! - `homotopy`: tolerances of the paths to all equilibria.

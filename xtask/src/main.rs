@@ -1,7 +1,8 @@
-//! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask trade`,
+//! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask cites`, `cargo xtask trade`,
 //! `cargo xtask extremes`, `cargo xtask bench`, `cargo xtask instructions`.
 
 mod bench;
+mod cites;
 mod defaults;
 mod extremes;
 mod instructions;
@@ -43,6 +44,8 @@ enum Task {
     },
     /// Compare the crates' dependencies with the allowed ones.
     Layers,
+    /// Check that the headings of docs/accuracy-and-speed.md that the code cites are there.
+    Cites,
     /// Measure what accuracy costs: schemes, estimated errors, choices of modelling, features, default settings.
     ///
     /// Exit code 1 if less than 95 % of the estimated errors are within a factor of 5 of the true ones.
@@ -92,6 +95,7 @@ fn main() -> ExitCode {
         Task::Verify { case, json } => verify::verify(case.as_deref(), json),
         Task::Paths { json } => paths::print(json),
         Task::Layers => layers::check(),
+        Task::Cites => cites::check(),
         Task::Trade(options) => trade::trade(&options),
         Task::Extremes(options) => extremes::follow(&options),
         Task::Bench(options) => bench::bench(&options),

@@ -18,7 +18,7 @@ use crate::bench::{machine, page};
 use crate::{TaskError, defaults};
 
 /// The page that is written.
-const PAGE: &str = "docs/accuracy-and-speed.md";
+pub(crate) const PAGE: &str = "docs/accuracy-and-speed.md";
 
 /// Arguments of `trade`.
 #[derive(Debug, Args)]

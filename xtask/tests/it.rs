@@ -14,6 +14,12 @@ fn the_layers_hold() {
 }
 
 #[test]
+fn headings_that_the_code_cites_are_there() {
+    let output = xtask(&["cites"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
 fn verify_prints_one_json_document() {
     let output = xtask(&["verify", "--case", "example1", "--json"]);
     assert!(output.status.success());

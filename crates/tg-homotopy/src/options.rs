@@ -4,9 +4,10 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackerOptions {
     /// Largest local error of the predictor relative to ‖x‖. Small against the distance of paths, so that the corrector
-    /// cannot slip to a neighbour.
+    /// cannot slip to a neighbour (docs/accuracy-and-speed.md, "Predictor of paths").
     pub predictor_tolerance: f64,
-    /// Largest last Newton step relative to ‖x‖. Newton's method squares it, so the point is better than that.
+    /// Largest last Newton step relative to ‖x‖. Newton's method squares it, so the point is better than that
+    /// (docs/accuracy-and-speed.md, "Corrector of paths").
     pub corrector_tolerance: f64,
     /// Newton steps before the step in t is halved.
     pub corrections: usize,
@@ -19,7 +20,8 @@ pub struct TrackerOptions {
     /// Most steps of one path.
     pub steps: usize,
     /// ‖J⁻¹‖ of the equilibrated Jacobian from which double-double is used: `corrector_tolerance` over the unit
-    /// roundoff would be the strict bound, observed stagnation of the corrector raises the precision earlier.
+    /// roundoff would be the strict bound, observed stagnation of the corrector raises the precision earlier (docs/accuracy-and-speed.md,
+    /// "Double-double on paths").
     pub double_limit: f64,
 }
 
@@ -71,7 +73,7 @@ pub struct EndgameOptions {
     pub smallest_radius: f64,
     /// |X₀|/‖X‖ of a group below which a regular end is at infinity.
     pub infinity: f64,
-    /// The same for a singular end, which is known less well.
+    /// The same for a singular end, which is known less well (docs/accuracy-and-speed.md, "Ends of paths at infinity").
     pub singular_infinity: f64,
 }
 

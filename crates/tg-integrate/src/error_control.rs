@@ -20,7 +20,7 @@ const LEAST_ERROR: f64 = 1e-4;
 pub struct Tolerances {
     /// Error of a substep relative to each coordinate and velocity. Of the planar tower's lowest triangle the default 1e-6
     /// leaves 2e-9 m after 1 s, with slacking cables 8e-9 m, in 2300 and 2800 evaluations of order 5; 1e-4 leaves 2e-7 and
-    /// 7e-7 m for half of that (`cargo xtask defaults`).
+    /// 7e-7 m for half of that (docs/accuracy-and-speed.md, "Tolerance of the explicit pairs").
     pub relative: f64,
     /// Error of a substep that is allowed to any coordinate \[m\] and velocity \[m/s\], in the root mean square of all. The
     /// default is 1e-8, a hundredth of the relative one: coordinates and velocities near zero are not asked for more digits

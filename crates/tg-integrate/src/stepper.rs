@@ -29,15 +29,15 @@ pub trait Stepper {
 pub struct NewtonOptions {
     /// Scaled residual to reach: dynamic rows by their largest term, constraints by the size of their member.
     /// On the planar tower the default 1e-12 leaves only rounding and costs 4.2 iterations a step, most of them with kept
-    /// factors; 1e-8 costs 3.9 and leaves 7e-10 m after 2 s, 1e-6 costs 2.6 and leaves 9e-6 m (`cargo xtask defaults`).
+    /// factors; 1e-8 costs 3.9 and leaves 7e-10 m after 2 s, 1e-6 costs 2.6 and leaves 9e-6 m; on a mast: docs/accuracy-and-speed.md, "Newton tolerance".
     pub tolerance: f64,
     /// Iterations before an attempt at a step is given up: several times what a step that converges needs.
     pub max_iterations: u32,
     /// Iterations after which the symplectic scheme freezes the active set of slacking cables. From 3 to 10 the results
-    /// are the same (`cargo xtask defaults`).
+    /// are the same (docs/accuracy-and-speed.md, "Steps without a solution").
     pub freeze_after: u32,
     /// How often the symplectic scheme may halve a step that fails. On the tower with damped slacking cables one suffices
-    /// (`cargo xtask defaults`); the others are in reserve.
+    /// (docs/accuracy-and-speed.md, "Steps without a solution"); the others are in reserve.
     pub halvings: u32,
     /// Whether the symplectic scheme keeps factors of the Newton matrix over iterations and steps. Without, each iteration
     /// has its own, as Algorithm 1 of the framework paper is printed (docs/accuracy-and-speed.md, "Kept factors").

@@ -14,6 +14,7 @@ use crate::error::ReadError;
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
     /// The modified symplectic scheme of the framework paper: second order, no numerical damping.
+    // Why it is the default: docs/accuracy-and-speed.md, "Schemes".
     #[default]
     Symplectic,
     /// Generalised-α (Arnold, Brüls 2007): second order, damps high frequencies.

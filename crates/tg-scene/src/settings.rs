@@ -7,7 +7,7 @@ use crate::run::{ChannelName, Format, RunSection};
 use crate::scheme::Scheme;
 use crate::values;
 
-/// Spectral radius of generalised-α at infinity that a scene need not say.
+/// Spectral radius of generalised-α at infinity that a scene need not say: docs/accuracy-and-speed.md, "Spectral radius".
 const SPECTRAL_RADIUS: f64 = 0.7;
 /// Pictures per second that a scene need not say.
 const FRAME_RATE: f64 = 50.0;

@@ -5,7 +5,8 @@
 pub struct ContinuationOptions {
     /// First step of arclength; one is about the whole range, or a displacement by the structure's size.
     pub step: f64,
-    /// Longest step. Events closer together than it may hide each other.
+    /// Longest step. Events closer together than it may hide each other: docs/accuracy-and-speed.md, "Longest step of
+    /// continuation".
     pub longest: f64,
     /// Shortest step before the branch is lost.
     pub shortest: f64,

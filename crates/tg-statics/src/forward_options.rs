@@ -14,7 +14,7 @@ pub enum Seek {
 #[derive(Clone, Copy, Debug)]
 pub struct ForwardOptions {
     /// Residual force per largest force at which forces balance. Rounding leaves some 1e-15; 1e-12 is reached by every
-    /// structure in the tests.
+    /// structure in the tests (docs/accuracy-and-speed.md, "Tolerance of forward statics").
     pub tolerance: f64,
     /// Newton iterations per load step. From near, four or five do; a far start takes some tens.
     pub max_iterations: u32,

@@ -31,7 +31,8 @@ pub struct EigenOptions {
     /// The method.
     pub method: Method,
     /// Part of the largest |ν| up to which an eigenvalue counts as zero. Rigid motions of all structures in the tests come
-    /// out below 1e-14; the slowest modes of a spine of a thousand vertebrae lie at 6e-12.
+    /// out below 1e-14; the slowest modes of a spine of a thousand vertebrae lie at 6e-12 (prisms:
+    /// docs/accuracy-and-speed.md, "Zero eigenvalues").
     pub zero: f64,
 }
 

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use tg_scene::Scheme;
 
+use crate::error::TrialError;
 use crate::errors::{Errors, Quantity};
 use crate::method::Method;
 use crate::motion::Motion;
@@ -88,6 +89,7 @@ impl Curve {
                         break;
                     }
                 }
+                Err(TrialError::TooLong { .. }) => break,
                 // A long step may fail where a shorter one does not.
                 Err(error) => curve.failure = Some(error.to_string()),
             }
@@ -97,10 +99,7 @@ impl Curve {
 }
 
 /// The motion, of the fastest of some runs.
-fn fastest<const D: usize>(
-    subject: &Subject<'_, D>,
-    method: &Method,
-) -> Result<Motion, crate::error::TrialError> {
+fn fastest<const D: usize>(subject: &Subject<'_, D>, method: &Method) -> Result<Motion, TrialError> {
     let mut best = subject.motion(method)?;
     for _ in 1..REPEATS {
         if best.seconds > LONG {

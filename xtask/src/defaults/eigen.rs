@@ -17,11 +17,11 @@ const REPEATS: u32 = 5;
 pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, TaskError> {
     Ok(vec![
         (
-            "Ten lowest modes of a spine, dense and sparse: fastest of five; the larger the ratio, the better is sparse",
+            "Dense or sparse eigenpairs: ten lowest modes of a spine, fastest of five; the larger the ratio, the better is sparse",
             methods()?,
         ),
         (
-            "Zero eigenvalues of free prisms per the largest eigenvalue, and the smallest one that is not zero",
+            "Zero eigenvalues: those of free prisms per the largest eigenvalue, and the smallest one that is not zero",
             zeros()?,
         ),
     ])

@@ -20,19 +20,19 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, TaskError> {
     let infinity = [1e-4, 1e-7, 1e-10];
     Ok(vec![
         (
-            "All equilibria of twenty random mechanisms, by the predictor's tolerance",
+            "Predictor of paths: all equilibria of twenty random mechanisms, by the predictor's tolerance",
             table(&predictor, |options, x| options.paths.tracker.predictor_tolerance = x)?,
         ),
         (
-            "The same by the corrector's tolerance",
+            "Corrector of paths: the same by the corrector's tolerance",
             table(&corrector, |options, x| options.paths.tracker.corrector_tolerance = x)?,
         ),
         (
-            "The same by the growth from which double-double is used",
+            "Double-double on paths: the same by the growth from which double-double is used",
             table(&double, |options, x| options.paths.tracker.double_limit = x)?,
         ),
         (
-            "The same by the closeness to infinity of a singular end",
+            "Ends of paths at infinity: the same by the closeness to infinity of a singular end",
             table(&infinity, |options, x| options.paths.endgame.singular_infinity = x)?,
         ),
     ])

@@ -1,4 +1,4 @@
-//! What the settings of [`NewtonOptions`] and [`Tolerances`] cost and give, on the planar tower.
+//! What the remedies in [`NewtonOptions`] and [`Tolerances`] cost and give, on the planar tower.
 
 use comfy_table::Table;
 use tg_cases::error::CaseError;
@@ -15,10 +15,6 @@ use super::plain;
 pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
     Ok(vec![
         (
-            "Newton tolerance of a step: tower UN, h = 1e-3, 2 s; largest distance of triangle 3 from the run at 1e-14",
-            tolerances()?,
-        ),
-        (
             "Steps without a solution: tower, slacking, η = 1 N s/m, h = 2e-3, 2 s; largest distance of triangle 3 from the run at h/64",
             remedies()?,
         ),
@@ -27,25 +23,6 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
             explicit()?,
         ),
     ])
-}
-
-fn tolerances() -> Result<Table, CaseError> {
-    let tower = Tower::new(&Choices::paper(Setup::Un))?;
-    let at = |tolerance| path(&tower, 1e-3, 1, NewtonOptions { tolerance, ..NewtonOptions::default() });
-    let (best, _, _) = at(1e-14)?;
-    let mut table =
-        plain(["tolerance", "iterations per step", "most in a step", "distance [m]", "residual left"]);
-    for tolerance in [1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13] {
-        let (points, summary, most) = at(tolerance)?;
-        table.add_row([
-            format!("{tolerance:.0e}"),
-            format!("{:.3}", summary.iterations as f64 / summary.steps as f64),
-            most.to_string(),
-            format!("{:.1e}", simulate::distance(&points, &best)),
-            format!("{:.1e}", summary.residual),
-        ]);
-    }
-    Ok(table)
 }
 
 fn remedies() -> Result<Table, CaseError> {

@@ -1,5 +1,6 @@
 //! One choice against the other on one structure: what each costs and how far the motion is off.
 
+mod alpha;
 mod bars;
 mod coordinates;
 mod newton;
@@ -27,10 +28,11 @@ struct Topic {
 
 /// All topics.
 pub(super) fn section() -> Result<String, TaskError> {
-    let topics: [fn() -> Result<Topic, TaskError>; 8] = [
+    let topics: [fn() -> Result<Topic, TaskError>; 9] = [
         newton::tolerance,
         newton::kept_factors,
         newton::projection,
+        alpha::spectral_radius,
         coordinates::coordinate_type,
         coordinates::joints,
         bars::thick,
