@@ -101,6 +101,7 @@ pub(crate) fn assemble<const D: usize>(parts: Parts<D>) -> Result<Model<D>, Buil
         weight: weight(parts, &members, q.len()),
         members,
         drive,
+        size: nodes.size(),
         free,
         initial: q,
         report,

@@ -56,6 +56,10 @@ impl<const D: usize> Mechanics for Model<D> {
         self.constraints.scales()
     }
 
+    fn size(&self) -> f64 {
+        self.size
+    }
+
     fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         self.drive.prescribe(t, q, v);
     }
