@@ -10,6 +10,7 @@ use tg_model::{At, Mechanics};
 use tg_tangent::TangentError;
 
 use crate::newton_system::{NewtonSystem, Residual};
+use crate::size::members;
 
 /// Share of the predicted decrease that a step must reach (Armijo).
 const SUFFICIENT: f64 = 1e-4;
@@ -43,7 +44,7 @@ pub(crate) fn newton(
     most: u32,
 ) -> Result<NewtonRun, TangentError> {
     let rest = vec![0.0; q.len()];
-    let reach = 0.5 * mechanics.constraint_scales().iter().fold(0.0_f64, |a, s| a.max(s.sqrt()));
+    let reach = 0.5 * members(mechanics);
     let (mut trial_q, mut trial_lambda) = (q.to_vec(), lambda.to_vec());
     let mut iterations = 0;
     loop {
