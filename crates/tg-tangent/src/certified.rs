@@ -6,6 +6,7 @@
 
 use tg_model::Mechanics;
 
+use crate::all_motions;
 use crate::configuration::Configuration;
 use crate::entries::Entries;
 use crate::error::TangentError;
@@ -38,6 +39,10 @@ struct Shifted<'a, 'm> {
 impl Operator for Shifted<'_, '_> {
     fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
         self.inverse.solve(wx, y)
+    }
+
+    fn project(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
+        self.inverse.project(wx, y)
     }
 
     fn metric(&self, x: &[f64], wx: &mut [f64]) {
@@ -86,17 +91,16 @@ pub(crate) fn lowest(
         let limit = (12 * wanted + 240).min(freedom);
         krylov.restart(&mut op)?;
         let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
+        if krylov.dimension() == freedom {
+            let pairs = all_motions::pairs(&tangent, &krylov, wanted, (zero_limit, ROUNDING * largest))?;
+            return Ok(Spectrum { pairs, counts, zero_limit, largest, method: Method::Sparse });
+        }
         let values: Vec<f64> = pairs.iter().map(|pair| shift + 1.0 / pair.theta).collect();
         // Everything below the gap behind the last wanted pair.
         let last = values.get(wanted - 1).copied().unwrap_or(shift);
         let gap = CLUSTER * last.abs().max(zero_limit);
-        let expected = if krylov.is_full() {
-            wanted
-        } else {
-            let count = inverse.count_below(last + gap, 0.1 * gap)?;
-            inverse.factor_shifted(shift)?;
-            count
-        };
+        let expected = inverse.count_below(last + gap, 0.1 * gap)?;
+        inverse.factor_shifted(shift)?;
         let found = values.iter().filter(|&&v| v <= last + gap).count();
         if found >= expected.min(freedom) {
             let pairs = pairs
@@ -111,7 +115,7 @@ pub(crate) fn lowest(
                 method: Method::Sparse,
             });
         }
-        if krylov.dimension() >= limit {
+        if krylov.dimension() >= limit || krylov.is_full() {
             return Err(TangentError::NotConverged {
                 wanted: expected,
                 found,

@@ -41,6 +41,7 @@
 //! | `[K, -Aᵀ; A, 0]`, `[M, -Aᵀ; A, 0]` | linear response under the constraints | [`Constrained`] |
 //! | (44) | lowest eigenpairs, inertia | [`lowest`], [`Spectrum`] |
 
+mod all_motions;
 mod augmentation;
 mod certified;
 mod configuration;
