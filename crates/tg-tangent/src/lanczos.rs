@@ -148,7 +148,13 @@ impl Krylov {
         let start: Vec<f64> = (0..self.size).map(|_| self.next_random()).collect();
         op.metric(&start, &mut wx);
         let mut x = start;
-        if through_s { op.apply(&wx, &mut x) } else { op.project(&wx, &mut x) }?;
+        if through_s {
+            op.apply(&wx, &mut x)?;
+        } else {
+            // About √w z: light motions have the same share as heavy ones.
+            wx.iter_mut().zip(&x).for_each(|(wx, z)| *wx = (*wx * z).abs().sqrt().copysign(*z));
+            op.project(&wx, &mut x)?;
+        }
         Ok(x)
     }
 

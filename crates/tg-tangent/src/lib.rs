@@ -53,6 +53,7 @@ mod error;
 mod lanczos;
 mod null_space;
 mod reduced;
+mod shift;
 mod shift_invert;
 mod spectrum;
 mod tangent;

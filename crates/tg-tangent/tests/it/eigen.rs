@@ -185,3 +185,20 @@ fn stiff_motions_beside_soft_ones() {
         }
     }
 }
+
+/// One pair of six zeros: a shift just behind it lies among the others, where no factorisation tells the inertia.
+#[test]
+fn fewer_pairs_than_zeros() {
+    for bars in [3, 6, 9, 12] {
+        let model = prism(bars, 10.0, 0.0, CableLaw::slacking).unwrap().model;
+        for metric in [Metric::Mass, Metric::Coordinates] {
+            for count in [1, 4, 6, 7] {
+                let options = EigenOptions { method: Method::Sparse, ..EigenOptions::new(count, metric) };
+                let found = lowest(&model, &at(&model), &options).unwrap();
+                assert_eq!((found.pairs.len(), found.counts.zero, found.counts.negative), (count, 6, 0));
+                let zeros = found.pairs.iter().filter(|pair| pair.sign == Sign::Zero).count();
+                assert_eq!(zeros, count.min(6), "{bars} bars, {metric:?}, {count}");
+            }
+        }
+    }
+}
