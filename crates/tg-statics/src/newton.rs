@@ -48,7 +48,12 @@ pub(crate) fn newton(
     let (mut trial_q, mut trial_lambda) = (q.to_vec(), lambda.to_vec());
     let mut iterations = 0;
     loop {
-        let scale = mechanics.force_scale(At { q, v: &rest, u, taut: None }).max(f64::MIN_POSITIVE);
+        let scale = mechanics.force_scale(At { q, v: &rest, u, taut: None });
+        if scale == 0.0 {
+            // Without any force there is nothing for constraints to balance.
+            lambda.fill(0.0);
+        }
+        let scale = scale.max(f64::MIN_POSITIVE);
         let residual = system.evaluate(mechanics, q, u, lambda, scale);
         let made = iterations;
         let run = |converged| Ok(NewtonRun { iterations: made, residual, converged });
