@@ -23,6 +23,7 @@ pub(crate) fn assemble<const D: usize>(parts: Parts<D>) -> Result<Model<D>, Buil
     let owned = Arc::clone(&parts);
     let parts = parts.as_ref();
     let mut nodes = Nodes::new(parts);
+    nodes.check_resolved()?;
     let allowed = MEETING * nodes.size();
     share_points(parts, &mut nodes, allowed)?;
     nodes.number();
