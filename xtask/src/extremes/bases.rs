@@ -50,7 +50,9 @@ pub(super) fn axes() -> Vec<Axis> {
     ]
 }
 
-const CAUSE: &str = "The mass matrix holds the inverse of the base vectors twice.";
+const CAUSE: &str = "The mass matrix holds the inverse of the base vectors twice, and constraints hold their difference by itself only: \
+                     the rounding of coordinates comes back as the cube of the condition in the balance of forces. Implicit schemes, which \
+                     iterate until that balance holds, refuse first.";
 
 /// A plate in coordinates RUV hanging from its first point, its base vectors `angle` apart, turned by an amplitude.
 fn plate(condition: f64, turned: f64) -> Result<(Model<2>, tg_model::MemberId), TaskError> {

@@ -35,7 +35,7 @@ pub(super) fn axes() -> Vec<Axis> {
         },
         Axis {
             title: "Load at a bifurcation, per critical load, less one: seeking what is stable",
-            setup: "The same from upright, asked for a stable equilibrium: upright below, tilted above, where the springs' moment holds \
+            setup: "The same from upright, asked for a stable equilibrium: upright below, fallen above, where the springs' moment holds \
                     that of the load. The moment that is left about the hinge, per Pl, and the verdict.",
             probes: signed(|d| Verdict::of(tilted(d), 1e-10)),
             cause: "",
@@ -116,8 +116,8 @@ fn tilted(distance: f64) -> Result<f64, TaskError> {
         moment += (x * dy - y * dx) * tension / length;
     }
     let verdict = stability(&model, &found, 1)?.verdict;
-    // Above the critical load the upright bar would be wrong, beyond the rounding of eigenvalues.
-    let right = verdict != Stability::Unstable && (distance < 1e-9 || x.abs() > 1e-6);
+    // Above the critical load upright would be wrong, beyond the rounding of eigenvalues.
+    let right = verdict != Stability::Unstable && (distance < 1e-9 || x.abs() > 1e-6 || y < 0.0);
     Ok(if right { moment.abs() / load } else { f64::NAN })
 }
 
@@ -190,8 +190,8 @@ fn pressed(distance: f64) -> Result<f64, TaskError> {
     let options = ForwardOptions { seek: Seek::Stable, ..ForwardOptions::default() };
     let found = Forward::new(&model, options).solve(&q, &u)?.configuration;
     let y = found.q[1];
-    // Within the root of rounding the fold has no sides.
-    let side = distance.abs() < 1e-9 || (distance < 0.0) == (y > 0.0);
+    // A residual of 1e-12 of the largest force κl reaches over the fold.
+    let side = distance.abs() <= 1e-9 || (distance < 0.0) == (y > 0.0);
     Ok(if side { (carried(y) - load).abs() / limit_load() } else { f64::NAN })
 }
 

@@ -17,7 +17,7 @@ const AMPLITUDE: f64 = 1e-3;
 /// The axes of this file.
 pub(super) fn axes() -> Vec<Axis> {
     let lengths = [1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e12];
-    let places = [1.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16];
+    let places = [1.0, 1e2, 1e4, 1e6, 1e8, 1e9, 1e10, 1e12, 1e16];
     vec![
         Axis {
             title: "Length of a structure, m",
