@@ -89,7 +89,8 @@ pub(crate) fn lowest(
         krylov.restart(&mut op)?;
         let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
         if krylov.dimension() == freedom {
-            let pairs = all_motions::pairs(&tangent, &krylov, wanted, (zero_limit, ROUNDING * largest))?;
+            let limits = (zero_limit, ROUNDING * largest);
+            let pairs = all_motions::pairs(&tangent, &krylov, &mut op, wanted, limits)?;
             return Ok(Spectrum { pairs, counts, zero_limit, largest, method: Method::Sparse });
         }
         let values: Vec<f64> = pairs.iter().map(|pair| shift + 1.0 / pair.theta).collect();
