@@ -24,6 +24,8 @@ const MOST_SHIFTS: u32 = 6;
 const CONSISTENT: f64 = 1e-14;
 /// Residuals below which a step that brings nothing more is the end: rounding has taken over.
 const ROUNDED: f64 = 1e-9;
+/// Roundings of the terms of a force that it may be off by at the end.
+const ROUNDINGS: f64 = 256.0;
 
 /// What one run of Newton's method did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,8 +100,9 @@ pub(crate) fn newton(
             }
         }
         if !accepted {
-            let small = residual.force <= ROUNDED && residual.constraint <= ROUNDED;
-            return run(small);
+            // More than rounding is left where no equilibrium exists: just beyond a limit point.
+            let rounding = tolerance.max(ROUNDINGS * f64::EPSILON * system.force_terms(mechanics, q) / scale);
+            return run(residual.force <= ROUNDED.min(rounding) && residual.constraint <= ROUNDED);
         }
         q.copy_from_slice(&trial_q);
         lambda.copy_from_slice(&trial_lambda);

@@ -182,3 +182,33 @@ fn an_equilibrium_without_any_force() {
         }
     }
 }
+
+/// A shallow arch of two springs carries at most κ(l₀ - l) 2y/l at l³ = l₀; a load larger by a billionth has no shallow
+/// equilibrium, however little the forces miss it by.
+#[test]
+fn just_beyond_a_limit_point() {
+    let (stiffness, rise) = (50.0, 0.3_f64);
+    let rest = 1.0_f64.hypot(rise);
+    let carried = |y: f64| 2.0 * stiffness * (rest - 1.0_f64.hypot(y)) * y / 1.0_f64.hypot(y);
+    let limit = carried((rest.powf(2.0 / 3.0) - 1.0).sqrt());
+    for beyond in [-1e-9, 1e-10, 1e-9, 1e-8, 1e-6] {
+        let load = limit * (1.0 + beyond);
+        let mut b = ModelBuilder::<2>::new();
+        let crown = b.particle("crown", 1.0, [0.0, rise]).unwrap();
+        b.support("guide", crown.node(0), 0, 0.0).unwrap();
+        for (name, x) in [("left", -1.0), ("right", 1.0)] {
+            let peg = b.anchor(name, [x, 0.0]).unwrap();
+            b.cable(name, peg, crown.node(0), CableLaw::linear(stiffness), rest).unwrap();
+        }
+        b.load("press", crown.node(0), [0.0, -load], 1.0).unwrap();
+        let model = b.build().unwrap();
+        let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
+        match Forward::new(&model, ForwardOptions::default()).solve(&q, &u) {
+            Ok(found) => {
+                let off = (carried(found.configuration.q[1]) - load).abs();
+                assert!(off < 1e-11, "{beyond:e}: a force of {off:.1e} N is left");
+            }
+            Err(error) => assert!(matches!(error, ForwardError::NotReached { .. }), "{error}"),
+        }
+    }
+}
