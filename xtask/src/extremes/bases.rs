@@ -87,7 +87,8 @@ fn swinging(condition: f64, controlled: bool) -> Result<f64, TaskError> {
     let (q, h) = (model.initial_coordinates(), if controlled { period / 10.0 } else { period / 200.0 });
     if controlled {
         let pair = EmbeddedPair::DormandPrince8;
-        let mut stepper = RungeKutta::new(&model, pair, Tolerances::relative(1e-9))?;
+        let tolerances = Tolerances { most_substeps: 5_000, ..Tolerances::relative(1e-9) };
+        let mut stepper = RungeKutta::new(&model, pair, tolerances)?;
         worst_along(&mut stepper, &q, (h, period), course)
     } else {
         worst_along(&mut Symplectic::new(&model, NewtonOptions::default())?, &q, (h, period), course)

@@ -98,7 +98,7 @@ fn symplectic(length: f64, place: f64) -> Result<f64, TaskError> {
 
 fn controlled(length: f64, place: f64) -> Result<f64, TaskError> {
     let (model, tip) = upright(length, place)?;
-    let tolerances = Tolerances::relative(1e-9);
+    let tolerances = Tolerances { most_substeps: 5_000, ..Tolerances::relative(1e-9) };
     let mut stepper = RungeKutta::new(&model, EmbeddedPair::DormandPrince8, tolerances)?;
     oscillation(&model, tip, (length, place), &mut stepper, 10.0)
 }
