@@ -5,10 +5,19 @@
 //!
 //! - `axis`: what is followed, and the values on it; `verdict`: what came of one, under guard;
 //! - `page`: `docs/limits.md`;
+//! - `chain`: a chain of masses, asked by several axes;
 //! - one file per group of axes.
 
 mod axis;
+mod bases;
+mod bifurcation;
+mod chain;
+mod lengths;
+mod many;
 mod page;
+mod prestress;
+mod ratios;
+mod redundant;
 mod stiffness;
 mod verdict;
 
@@ -35,7 +44,18 @@ pub(crate) struct Options {
 
 /// All axes in the order of the page.
 fn axes() -> Vec<Axis> {
-    [stiffness::axes()].into_iter().flatten().collect()
+    let groups = [
+        stiffness::axes(),
+        ratios::stiffness(),
+        ratios::masses(),
+        lengths::axes(),
+        bases::axes(),
+        redundant::axes(),
+        prestress::axes(),
+        bifurcation::axes(),
+        many::axes(),
+    ];
+    groups.into_iter().flatten().collect()
 }
 
 /// Follows the axes; true if every answer was right or refused.

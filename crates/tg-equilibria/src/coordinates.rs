@@ -21,8 +21,11 @@ const PARALLEL: f64 = 1e-9;
 const I: Complex64 = Complex64::new(0.0, 1.0);
 const ONE: Complex64 = Complex64::new(1.0, 0.0);
 
-/// The variables of a structure, its nodes by them, and which of them are independent.
+/// The variables of a structure, its nodes by them, and which of them are independent. Lengths are per unit.
 pub(crate) struct Coordinates<const D: usize> {
+    /// The unit of length \[m\]: near the structure's size, so that polynomials have coefficients of order one; exactly 1 m
+    /// for those of some centimetres to some ten metres.
+    pub(crate) unit: f64,
     pub(crate) variables: Variables,
     /// The D sides of each node.
     pub(crate) nodes: Vec<Vec<Form>>,
@@ -33,7 +36,8 @@ pub(crate) struct Coordinates<const D: usize> {
 impl<const D: usize> Coordinates<D> {
     /// The coordinates of a structure that starts from its initial configuration.
     pub(crate) fn new(model: &Model<D>) -> Result<Self, EquilibriaError> {
-        let q = model.initial_coordinates();
+        let unit = unit_near(model.size());
+        let q: Vec<f64> = model.initial_coordinates().iter().map(|x| x / unit).collect();
         let places: Vec<SVector<f64, D>> = q.chunks_exact(D).map(SVector::from_column_slice).collect();
         let mut is_free = vec![false; q.len()];
         model.free().iter().for_each(|&i| is_free[i] = true);
@@ -43,7 +47,8 @@ impl<const D: usize> Coordinates<D> {
             let free = &is_free[D * node..D * (node + 1)];
             nodes.push(node_sides(&mut variables, model.node_name(node), place, free));
         }
-        let mut coordinates = Self { variables, nodes, rotations: Vec::new(), affine: Affine::default() };
+        let mut coordinates =
+            Self { unit, variables, nodes, rotations: Vec::new(), affine: Affine::default() };
         let mut relations = Vec::new();
         for member in model.members() {
             coordinates.turn(model, member, &places, &is_free, &mut relations);
@@ -134,6 +139,7 @@ impl<const D: usize> Coordinates<D> {
         let mut phi = vec![0.0; is_dot.len()];
         model.constraints(q, &mut phi);
         for row in (0..is_dot.len()).filter(|&row| !is_dot[row]) {
+            // Linear: Φ per unit is Φ of the coordinates per unit.
             let mut sum = Form::constant(phi[row]);
             let entries = model.jacobian_pattern().iter().zip(&jacobian);
             for (&(_, i), &a) in entries.filter(|((r, _), _)| *r == row) {
@@ -171,6 +177,11 @@ impl<const D: usize> Coordinates<D> {
         }
         Ok(())
     }
+}
+
+/// A power of 1024 near a size: scaling by it rounds nothing.
+fn unit_near(size: f64) -> f64 {
+    (10.0 * (size.log2() / 10.0).round()).exp2()
 }
 
 /// The sides of a node as functions of new variables, as far as supports leave it free.

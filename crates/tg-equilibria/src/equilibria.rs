@@ -71,7 +71,8 @@ pub(crate) fn prepare<const D: usize>(
 }
 
 impl<const D: usize> Stationarity<D> {
+    /// Rest lengths, and components of forces, per unit of length.
     pub(crate) fn parameters_at(&self, u: &[f64]) -> Vec<Complex64> {
-        self.inputs.iter().map(|&input| Complex64::new(u[input], 0.0)).collect()
+        self.inputs.iter().map(|&input| Complex64::new(u[input] / self.unknowns.unit, 0.0)).collect()
     }
 }

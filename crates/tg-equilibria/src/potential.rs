@@ -10,9 +10,9 @@ use tg_model::{At, Mechanics, Model, Tensioned};
 use crate::error::EquilibriaError;
 use crate::unknowns::Unknowns;
 
-/// How far the coordinates are moved to see whether a load changes.
+/// How far the coordinates are moved, per size of the structure, to see whether a load changes.
 const MOVED: f64 = 0.1;
-/// Changes of a load below this part of the largest are rounding.
+/// Changes of a load below this part of the largest force are rounding.
 const UNCHANGED: f64 = 1e-8;
 
 /// A cable that acts on the structure.
@@ -30,7 +30,7 @@ pub(crate) struct Potential {
     pub(crate) springs: Vec<Spring>,
     /// Cables between points at a constant distance: they do nothing.
     pub(crate) idle: Vec<usize>,
-    /// Work of weights.
+    /// Work of weights, per squared unit of length.
     pub(crate) work: Polynomial,
     /// Work of the load components that are not zero, with the input of each, per unit.
     pub(crate) loads: Vec<(usize, Polynomial)>,
@@ -59,6 +59,7 @@ impl Potential {
         let mut inputs = u.to_vec();
         inputs[model.cable_count()..].fill(0.0);
         let weights = force_without_cables(model, &q, &inputs);
+        let per_unit: Vec<f64> = weights.iter().map(|f| f / unknowns.unit).collect();
         let mut loads = Vec::new();
         for input in (model.cable_count()..u.len()).filter(|&input| u[input] != 0.0) {
             inputs[input] = 1.0;
@@ -67,16 +68,19 @@ impl Potential {
             let force: Vec<f64> = with.iter().zip(&weights).map(|(a, b)| a - b).collect();
             loads.push((input, unknowns.work(&force)));
         }
-        Ok(Self { springs, idle, work: unknowns.work(&weights), loads })
+        Ok(Self { springs, idle, work: unknowns.work(&per_unit), loads })
     }
 }
 
 /// Whether what is left of the force without the cables is the same everywhere.
 fn check_constant<const D: usize>(model: &Model<D>, u: &[f64]) -> Result<(), EquilibriaError> {
     let q = model.initial_coordinates();
-    let moved: Vec<f64> = q.iter().enumerate().map(|(i, x)| x + MOVED * (1.0 + i as f64).sin()).collect();
+    let step = MOVED * model.size();
+    let moved: Vec<f64> = q.iter().enumerate().map(|(i, x)| x + step * (1.0 + i as f64).sin()).collect();
     let (force, elsewhere) = (force_without_cables(model, &q, u), force_without_cables(model, &moved, u));
-    let size = force.iter().fold(1.0_f64, |a, f| a.max(f.abs()));
+    let rest = vec![0.0; q.len()];
+    let scale = |q: &[f64]| model.force_scale(At { q, v: &rest, u, taut: None });
+    let size = scale(&q).max(scale(&moved));
     match model.free().iter().find(|&&i| (force[i] - elsewhere[i]).abs() > UNCHANGED * size) {
         None => Ok(()),
         Some(&i) => Err(EquilibriaError::NotAlgebraic {

@@ -39,13 +39,15 @@ pub(crate) struct Unknowns<const D: usize> {
     values: Vec<Polynomial>,
     /// Products of unknowns that norms replace.
     rules: Vec<((usize, usize), Polynomial)>,
-    /// Sides of each node.
+    /// Sides of each node, per unit.
     nodes: Vec<Vec<Polynomial>>,
+    /// The unit of length \[m\].
+    pub(crate) unit: f64,
 }
 
 impl<const D: usize> Unknowns<D> {
     pub(crate) fn new(coordinates: &Coordinates<D>, builder: &mut SystemBuilder) -> Self {
-        let Coordinates { variables, affine, rotations, nodes } = coordinates;
+        let Coordinates { unit, variables, affine, rotations, nodes } = coordinates;
         let mut this = Self {
             y: Vec::new(),
             norms: Vec::new(),
@@ -55,6 +57,7 @@ impl<const D: usize> Unknowns<D> {
             values: Vec::new(),
             rules: Vec::new(),
             nodes: Vec::new(),
+            unit: *unit,
         };
         // Independent variables are unknowns or products of unknowns.
         let mut independent = BTreeMap::new();
@@ -155,7 +158,7 @@ impl<const D: usize> Unknowns<D> {
         (0..D).map(side).collect()
     }
 
-    /// |x|² of a vector given by its sides.
+    /// |x|² of a vector given by its sides, per unit.
     pub(crate) fn square_length(&self, sides: &[Polynomial]) -> Polynomial {
         let square = match sides {
             [p, conjugate] => p * conjugate,
@@ -164,7 +167,7 @@ impl<const D: usize> Unknowns<D> {
         self.simplified(square)
     }
 
-    /// Σ f_n·P_n over nodes.
+    /// Σ f_n·P_n over nodes, P per unit.
     pub(crate) fn work(&self, forces: &[f64]) -> Polynomial {
         let parts = forces.iter().enumerate().filter(|(_, f)| **f != 0.0).flat_map(|(i, &f)| {
             let sides = cartesian::<D>(i % D);
@@ -183,7 +186,8 @@ impl<const D: usize> Unknowns<D> {
         let node = |sides: &Vec<Polynomial>| -> SVector<f64, D> {
             let values: Vec<Complex64> = sides.iter().map(|side| side.evaluate(y, &[])).collect();
             SVector::from_fn(|axis, _| {
-                cartesian::<D>(axis).into_iter().map(|(side, c)| c * values[side]).sum::<Complex64>().re
+                let sides = cartesian::<D>(axis).into_iter();
+                self.unit * sides.map(|(side, c)| c * values[side]).sum::<Complex64>().re
             })
         };
         self.nodes.iter().flat_map(|sides| node(sides).as_slice().to_vec()).collect()

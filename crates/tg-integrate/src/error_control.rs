@@ -1,9 +1,13 @@
 //! Choice of the step from the estimated error: a proportional-integral controller.
 //!
 //! ```text
-//! err = √( (1/2n) Σ (e_i / (absolute + relative · max(|y_i|, |ŷ_i|)))² )
-//! h_{n+1} = h_n · 0.9 · err_n^(-1/p + 0.75 β) · err_{n-1}^β,   β = 0.2/p
+//! err = √( (1/2n) Σ (e_i / (absolute · S + relative · min(max(|y_i|, |ŷ_i|), S)))² ),   S = L for coordinates
+//! h_{n+1} = h_n · 0.9 · err_n^(-1/p + 0.75 β) · err_{n-1}^β,   β = 0.2/p                     S = V for velocities
 //! ```
+//! L is the size of the structure and V its speed: the largest velocity at hand, or √(f L/m) if that is more, which the largest
+//! force f at the start gives the whole mass m over the distance L. So a tolerance means the same for a structure in
+//! millimetres and in kilometres, near the origin and far from it.
+//!
 //! K. Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533–554; E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
 //! (2.43c) of Sec. IV.2.
 
@@ -22,9 +26,9 @@ pub struct Tolerances {
     /// leaves 2e-9 m after 1 s, with slacking cables 8e-9 m, in 2300 and 2800 evaluations of order 5; 1e-4 leaves 2e-7 and
     /// 7e-7 m for half of that (docs/accuracy-and-speed.md, "Tolerance of the explicit pairs").
     pub relative: f64,
-    /// Error of a substep that is allowed to any coordinate \[m\] and velocity \[m/s\], in the root mean square of all. The
-    /// default is 1e-8, a hundredth of the relative one: coordinates and velocities near zero are not asked for more digits
-    /// than the others.
+    /// Error of a substep that is allowed to any coordinate, per size of the structure, and to any velocity, per its speed, in
+    /// the root mean square of all. The default is 1e-8, a hundredth of the relative one: coordinates and velocities near zero
+    /// are not asked for more digits than the others.
     pub absolute: f64,
     /// Substeps, accepted or not, after which a step is given up: an explicit scheme on a stiff structure would go on for
     /// very long. The default 100 000 is a second or more of computing for a small structure.
@@ -59,9 +63,9 @@ impl Tolerances {
         Ok(())
     }
 
-    /// Size by which an error of a component that goes from `a` to `b` is divided.
-    pub(crate) fn scale(&self, a: f64, b: f64) -> f64 {
-        self.absolute + self.relative * a.abs().max(b.abs())
+    /// Size by which an error of a component that goes from `a` to `b` is divided, `size` being L or V.
+    pub(crate) fn scale(&self, a: f64, b: f64, size: f64) -> f64 {
+        self.absolute * size + self.relative * a.abs().max(b.abs()).min(size)
     }
 }
 

@@ -196,9 +196,8 @@ impl Stepper for GeneralizedAlpha<'_> {
         let start = check::start(self.system.mechanics, t, q, v)?;
         let mut state = check::project(&mut self.projector, start)?;
         let mechanics = self.system.mechanics;
-        // Any short time serves for the supports' acceleration at the start.
         self.acceleration.fill(0.0);
-        self.prescribe_acceleration(t, 1e-6);
+        mechanics.prescribed_acceleration(t, &mut self.acceleration);
         mechanics.inputs(t, &mut self.inputs);
         let at = At { q: &state.q, v: &state.v, u: &self.inputs, taut: None };
         mechanics.force(at, &mut self.force);

@@ -34,6 +34,8 @@ const CHATTER: f64 = 1e-2;
 const SLIDING: f64 = 1e-2;
 /// Least substep as a part of the step or of the time: some roundings of the time.
 const SMALLEST: f64 = 1e-13;
+/// Numbers in the memory of a state before the accelerations.
+const HEAD: usize = 3;
 
 /// An explicit embedded Runge–Kutta pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,7 +63,8 @@ impl EmbeddedPair {
 /// of the accelerations (one factorisation each), `substeps` the accepted substeps, `rejected` those that were made
 /// again, `frozen` those that end at a switch, `forced` switches that were passed over. The multipliers of a state are those
 /// at its time. Kinks of ramps and tables that move supports are not located: let steps end there, or the order
-/// is lost and the error is larger than the tolerance. The memory of a state is: substep, error, accelerations of the free components.
+/// is lost and the error is larger than the tolerance. The memory of a state is: substep, error, speed at the start, accelerations
+/// of the free components.
 ///
 /// ```
 /// use tg_integrate::{EmbeddedPair, Run, RungeKutta, Stepper, Tolerances};
@@ -274,11 +277,11 @@ impl Stepper for RungeKutta<'_> {
         let mut state = check::project(&mut self.projector, start)?;
         equations.load(&state, packed);
         equations.place(t, packed);
-        state.memory = vec![0.0; 2 + equations.unknowns()];
-        state.memory[1] = 1.0;
+        state.memory = vec![0.0; HEAD + equations.unknowns()];
+        (state.memory[1], state.memory[2]) = (1.0, equations.speed());
         equations
             .factor()
-            .and_then(|()| equations.accelerate(None, &mut state.memory[2..]))
+            .and_then(|()| equations.accelerate(None, &mut state.memory[HEAD..]))
             .map_err(|source| equations.projection_error(source))?;
         state.lambda.copy_from_slice(equations.multipliers());
         Ok(state)
@@ -288,12 +291,13 @@ impl Stepper for RungeKutta<'_> {
         let t = state.t;
         let substep = &mut self.substep;
         let n = substep.equations.unknowns();
-        check::step(state, h, substep.equations.mechanics.sizes(), 2 + n)?;
+        check::step(state, h, substep.equations.mechanics.sizes(), HEAD + n)?;
         let fallbacks = substep.equations.fallbacks();
         substep.equations.load(state, &mut substep.start);
         substep.equations.place(t, &substep.start);
         substep.rates[..n].copy_from_slice(&substep.start[n..]);
-        substep.rates[n..2 * n].copy_from_slice(&state.memory[2..]);
+        substep.rates[n..2 * n].copy_from_slice(&state.memory[HEAD..]);
+        substep.first_speed = state.memory[2];
         let mut report = StepReport::default();
         let mut controller = Controller::new(state.memory[0], state.memory[1]);
         let done = match substep.tolerances {
@@ -310,7 +314,7 @@ impl Stepper for RungeKutta<'_> {
         state.v.copy_from_slice(&substep.equations.v);
         state.lambda.copy_from_slice(&substep.lambda);
         (state.memory[0], state.memory[1]) = (controller.proposal, controller.last_error);
-        state.memory[2..].copy_from_slice(&substep.rates[n..2 * n]);
+        state.memory[HEAD..].copy_from_slice(&substep.rates[n..2 * n]);
         report.fallbacks = (substep.equations.fallbacks() - fallbacks) as u32;
         Ok(report)
     }

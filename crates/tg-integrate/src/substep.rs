@@ -13,6 +13,8 @@ pub(crate) struct Substep<'m> {
     pub(crate) tableau: &'static Tableau,
     /// None: no error estimate, and the laws decide at each stage.
     pub(crate) tolerances: Option<Tolerances>,
+    /// Least speed that velocities are held against \[m/s\].
+    pub(crate) first_speed: f64,
     pub(crate) equations: IndexOne<'m>,
     pub(crate) start: Vec<f64>,
     pub(crate) stage: Vec<f64>,
@@ -41,6 +43,7 @@ impl<'m> Substep<'m> {
         Self {
             tableau,
             tolerances,
+            first_speed: 0.0,
             equations,
             start: packed(),
             stage: packed(),
@@ -128,14 +131,17 @@ impl<'m> Substep<'m> {
             accumulate(h, terms, &self.rates, error);
         }
         let [first, second] = &self.errors;
+        let n = self.jump.len();
+        let (length, speed) = (self.equations.mechanics.size(), self.speed());
         let (mut sums, mut largest, mut worst) = ([0.0, 0.0], 0.0, 0);
         for i in 0..first.len() {
-            let scale = tolerances.scale(self.start[i], self.end[i]);
+            let size = if i < n { length } else { speed };
+            let scale = tolerances.scale(self.start[i], self.end[i], size);
             let (e, other) = (first[i] / scale, second[i] / scale);
             sums[0] += e * e;
             sums[1] += other * other;
             if e.abs() > largest {
-                (largest, worst) = (e.abs(), i % self.jump.len());
+                (largest, worst) = (e.abs(), i % n);
             }
         }
         // With one estimate the second sum is zero; two of orders 5 and 3 combine to one of order 8
@@ -144,12 +150,25 @@ impl<'m> Substep<'m> {
         (error / (first.len() as f64).sqrt(), worst)
     }
 
+    /// V of the substep.
+    pub(crate) fn speed(&self) -> f64 {
+        self.speed_at(&self.start).max(self.speed_at(&self.end))
+    }
+
+    /// V at a packed state: the largest velocity, no less than the first speed. Where nothing moves and no force acts, any.
+    fn speed_at(&self, packed: &[f64]) -> f64 {
+        let velocities = &packed[self.jump.len()..];
+        let speed = velocities.iter().fold(self.first_speed, |largest, v| largest.max(v.abs()));
+        if speed > 0.0 { speed } else { f64::MIN_POSITIVE }
+    }
+
     /// A first substep: it changes the state by a hundredth of its size, both scaled by the tolerances (Hairer, Nørsett,
     /// Wanner, Sec. II.4).
     pub(crate) fn first_length(&self, tolerances: &Tolerances) -> f64 {
         let (mut size, mut rate) = (0.0, 0.0);
-        for (y, k) in self.start.iter().zip(&self.rates) {
-            let scale = tolerances.scale(*y, *y);
+        let (length, speed) = (self.equations.mechanics.size(), self.speed_at(&self.start));
+        for (i, (y, k)) in self.start.iter().zip(&self.rates).enumerate() {
+            let scale = tolerances.scale(*y, *y, if i < self.jump.len() { length } else { speed });
             size += (y / scale).powi(2);
             rate += (k / scale).powi(2);
         }

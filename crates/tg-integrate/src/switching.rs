@@ -92,10 +92,10 @@ impl Substep<'_> {
     /// δq̈ against the tolerance of the velocities, where the equations are placed, by the factors of the end.
     fn missed(&mut self, tolerances: &Tolerances) -> Result<f64, SparseError> {
         self.equations.jump(&self.taut, &self.taut_then, &mut self.jump)?;
-        let n = self.jump.len();
+        let (n, speed) = (self.jump.len(), self.speed());
         let mut sum = 0.0;
         for i in 0..n {
-            sum += (self.jump[i] / tolerances.scale(self.start[n + i], self.end[n + i])).powi(2);
+            sum += (self.jump[i] / tolerances.scale(self.start[n + i], self.end[n + i], speed)).powi(2);
         }
         Ok((sum / n as f64).sqrt())
     }

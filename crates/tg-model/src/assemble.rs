@@ -23,6 +23,7 @@ pub(crate) fn assemble<const D: usize>(parts: Parts<D>) -> Result<Model<D>, Buil
     let owned = Arc::clone(&parts);
     let parts = parts.as_ref();
     let mut nodes = Nodes::new(parts);
+    nodes.check_resolved()?;
     let allowed = MEETING * nodes.size();
     share_points(parts, &mut nodes, allowed)?;
     nodes.number();
@@ -101,6 +102,7 @@ pub(crate) fn assemble<const D: usize>(parts: Parts<D>) -> Result<Model<D>, Buil
         weight: weight(parts, &members, q.len()),
         members,
         drive,
+        size: nodes.size(),
         free,
         initial: q,
         report,

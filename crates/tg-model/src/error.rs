@@ -205,6 +205,17 @@ pub enum BuildError {
         /// Scaled difference of the residuals or relative difference of the rates at t = 0.
         violation: f64,
     },
+    /// Coordinates so far from the origin that rounding takes the structure's digits.
+    #[error(
+        "the structure is {size:.1e} m large and {distance:.1e} m from the origin, where coordinates are rounded by {:.1e} m: fewer than six digits of its shape are left; place the origin nearer",
+        f64::EPSILON * distance
+    )]
+    FarFromOrigin {
+        /// Size of the structure \[m\].
+        size: f64,
+        /// Largest coordinate \[m\].
+        distance: f64,
+    },
     /// The structure has nothing to solve for.
     #[error("the structure has no free coordinate; add a member or free a support")]
     NothingFree,

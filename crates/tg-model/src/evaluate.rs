@@ -56,6 +56,10 @@ impl<const D: usize> Mechanics for Model<D> {
         self.constraints.scales()
     }
 
+    fn size(&self) -> f64 {
+        self.size
+    }
+
     fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]) {
         self.drive.prescribe(t, q, v);
     }
@@ -111,7 +115,8 @@ impl<const D: usize> Mechanics for Model<D> {
             let length = cable.form.eval(at.q).norm();
             let tension = cable.law.static_tension(length, *rest).abs();
             let known = RESOLVED * cable.law.linear_stiffness().unwrap_or(0.0) * length;
-            if tension == 0.0 { 0.0 } else { tension.max(known) }
+            // A slack cable says nothing; one that is taut and carries nothing is still known no better.
+            if tension == 0.0 && length < *rest { 0.0 } else { tension.max(known) }
         };
         let tensions = self.cables.iter().zip(at.u).map(tension);
         let forces = self.forces.iter().flat_map(|(_, input)| &at.u[*input..input + D]);

@@ -92,6 +92,8 @@ pub trait Mechanics: Send + Sync {
     fn constraint_hessian(&self) -> &[HessianEntry];
     /// Size of each constraint (squared or plain length of its member) by which residuals are scaled.
     fn constraint_scales(&self) -> &[f64];
+    /// Size of the structure \[m\], wherever it stands: what displacements are small or large against.
+    fn size(&self) -> f64;
 
     /// Overwrites the prescribed components of q and q̇ by their values at time `t`.
     fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]);

@@ -56,6 +56,8 @@ pub struct Model<const D: usize> {
     pub(crate) inertia: Inertia,
     pub(crate) drive: Drive,
     pub(crate) free: Vec<usize>,
+    /// Diagonal of the box around all points as built \[m\]; one where they are one point.
+    pub(crate) size: f64,
     pub(crate) initial: Vec<f64>,
     pub(crate) report: BuildReport,
 }

@@ -12,6 +12,9 @@ use crate::placed::PlacedMember;
 /// passes, a misplaced member does not.
 pub(crate) const MEETING: f64 = 1e-9;
 
+/// Rounding of coordinates, per size of the structure, that leaves too little of its shape.
+const RESOLVED: f64 = 1e-6;
+
 /// Nodes before and after numbering. A *slot* is a node of one member or anchor before merging; a *node* is a
 /// D-vector of the coordinates.
 pub(crate) struct Nodes<const D: usize> {
@@ -70,6 +73,15 @@ impl<const D: usize> Nodes<D> {
     /// Diagonal of the bounding box of all points \[m\].
     pub(crate) fn size(&self) -> f64 {
         self.size
+    }
+
+    /// Refuses a structure whose shape is rounded where it stands.
+    pub(crate) fn check_resolved(&self) -> Result<(), BuildError> {
+        let distance = self.positions.iter().fold(0.0_f64, |a, x| a.max(x.amax()));
+        if f64::EPSILON * distance <= RESOLVED * self.size {
+            return Ok(());
+        }
+        Err(BuildError::FarFromOrigin { size: self.size, distance })
     }
 
     pub(crate) fn position(&self, slot: usize) -> SVector<f64, D> {

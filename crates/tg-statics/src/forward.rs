@@ -207,6 +207,7 @@ impl<'s> Walk<'s> {
         Ok(ForwardError::NotReached {
             residual,
             coordinate: mechanics.coordinate_name(mechanics.free()[worst]),
+            violation: self.last.residual.constraint,
             load: reached,
             loaded_rigid_motions: free.count() - gauged,
             last: Box::new(at),

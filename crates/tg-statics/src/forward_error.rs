@@ -13,7 +13,7 @@ pub enum ForwardError {
     Tangent(#[from] TangentError),
     /// Neither Newton's method nor relaxation reached equilibrium.
     #[error(
-        "no equilibrium reached at {:.1} % of the step in inputs: a residual force of {residual:.2e} of the largest force is left at the {coordinate}{}",
+        "no equilibrium reached at {:.1} % of the step in inputs: a residual force of {residual:.2e} of the largest force is left at the {coordinate}, and a constraint violated by {violation:.2e} of its size{}",
         100.0 * load,
         cause(*loaded_rigid_motions)
     )]
@@ -22,6 +22,8 @@ pub enum ForwardError {
         residual: f64,
         /// Where it is largest.
         coordinate: String,
+        /// Largest violation of a constraint, per its size.
+        violation: f64,
         /// Part of the step in inputs at which the search stopped.
         load: f64,
         /// Rigid motions that the supports leave free and along which a load can do work.

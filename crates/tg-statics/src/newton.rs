@@ -10,6 +10,7 @@ use tg_model::{At, Mechanics};
 use tg_tangent::TangentError;
 
 use crate::newton_system::{NewtonSystem, Residual};
+use crate::size::members;
 
 /// Share of the predicted decrease that a step must reach (Armijo).
 const SUFFICIENT: f64 = 1e-4;
@@ -23,6 +24,8 @@ const MOST_SHIFTS: u32 = 6;
 const CONSISTENT: f64 = 1e-14;
 /// Residuals below which a step that brings nothing more is the end: rounding has taken over.
 const ROUNDED: f64 = 1e-9;
+/// Roundings of the terms of a force that it may be off by at the end.
+const ROUNDINGS: f64 = 256.0;
 
 /// What one run of Newton's method did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +46,16 @@ pub(crate) fn newton(
     most: u32,
 ) -> Result<NewtonRun, TangentError> {
     let rest = vec![0.0; q.len()];
-    let reach = 0.5 * mechanics.constraint_scales().iter().fold(0.0_f64, |a, s| a.max(s.sqrt()));
+    let reach = 0.5 * members(mechanics);
     let (mut trial_q, mut trial_lambda) = (q.to_vec(), lambda.to_vec());
     let mut iterations = 0;
     loop {
-        let scale = mechanics.force_scale(At { q, v: &rest, u, taut: None }).max(f64::MIN_POSITIVE);
+        let scale = mechanics.force_scale(At { q, v: &rest, u, taut: None });
+        if scale == 0.0 {
+            // Without any force there is nothing for constraints to balance.
+            lambda.fill(0.0);
+        }
+        let scale = scale.max(f64::MIN_POSITIVE);
         let residual = system.evaluate(mechanics, q, u, lambda, scale);
         let made = iterations;
         let run = |converged| Ok(NewtonRun { iterations: made, residual, converged });
@@ -92,8 +100,9 @@ pub(crate) fn newton(
             }
         }
         if !accepted {
-            let small = residual.force <= ROUNDED && residual.constraint <= ROUNDED;
-            return run(small);
+            // More than rounding is left where no equilibrium exists: just beyond a limit point.
+            let rounding = tolerance.max(ROUNDINGS * f64::EPSILON * system.force_terms(mechanics, q) / scale);
+            return run(residual.force <= ROUNDED.min(rounding) && residual.constraint <= ROUNDED);
         }
         q.copy_from_slice(&trial_q);
         lambda.copy_from_slice(&trial_lambda);

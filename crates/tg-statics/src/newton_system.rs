@@ -237,6 +237,18 @@ impl NewtonSystem {
         Ok(Step { q, p: p.first().copied().unwrap_or(0.0), lambda: &rest[..m] })
     }
 
+    /// Largest sum of the terms |K_ij q_j| of a force \[N\] where the matrix was factored: what coordinates' rounding acts on.
+    pub(crate) fn force_terms(&self, mechanics: &dyn Mechanics, q: &[f64]) -> f64 {
+        let mut sums = vec![0.0; q.len()];
+        for (&(r, c), k) in mechanics.stiffness_pattern().iter().zip(&self.stiffness) {
+            sums[r] += (k * q[c]).abs();
+        }
+        for (e, k) in mechanics.constraint_hessian().iter().zip(&self.hessian) {
+            sums[e.row] += (k * q[e.col]).abs();
+        }
+        sums.into_iter().fold(0.0, f64::max)
+    }
+
     /// ϱ: the size of the stiffness; one where all cables are slack.
     pub(crate) fn scale(&self) -> f64 {
         let largest = self.stiffness.iter().fold(0.0_f64, |a, k| a.max(k.abs()));

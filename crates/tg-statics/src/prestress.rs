@@ -69,7 +69,7 @@ pub fn prestress_stability(
     if size == 0.0 {
         return Ok(PrestressStability::NotStable { bound: 0.0 });
     }
-    // Unknowns α, then t; maximise t.
+    // Unknowns α, then t per size of the Q_i; maximise t.
     let mut program = Program::new(states + 1);
     program.cost(states, -1.0);
     for i in 0..states {
@@ -81,12 +81,12 @@ pub fn prestress_stability(
             program.at_least(&row, 0.0);
         }
     }
-    program.at_most(&[(states, 1.0)], 2.0 * size * states as f64 * analysis.mechanisms.len() as f64);
+    program.at_most(&[(states, 1.0)], 2.0 * states as f64 * analysis.mechanisms.len() as f64);
     let mut best = (f64::NEG_INFINITY, vec![0.0; states]);
     let mut bound = f64::INFINITY;
     for _ in 0..MOST_CUTS {
         let x = program.solve()?;
-        bound = bound.min(x[states]);
+        bound = bound.min(x[states] * size);
         let sum = Mat::from_fn(forms[0].nrows(), forms[0].ncols(), |r, c| {
             forms.iter().zip(&x).map(|(q, a)| a * q[(r, c)]).sum()
         });
@@ -101,7 +101,7 @@ pub fn prestress_stability(
             let w = vectors.col(k);
             let value = |q: &Mat<f64>| {
                 let product = q * w;
-                (0..w.nrows()).map(|i| w[i] * product[i]).sum::<f64>()
+                (0..w.nrows()).map(|i| w[i] * product[i]).sum::<f64>() / size
             };
             let cut: Vec<_> = forms.iter().map(|q| -value(q)).enumerate().chain([(states, 1.0)]).collect();
             program.at_most(&cut, 0.0);

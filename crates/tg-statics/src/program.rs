@@ -23,7 +23,10 @@ pub enum ProgramError {
     },
 }
 
-/// Minimise `½ Σ w_k (x_k - target_k)² + cᵀx` subject to rows `aᵀx ≤ b` and `aᵀx = b`; sparse throughout.
+/// Minimise `½ Σ w_k (x_k - target_k)² + cᵀx` subject to rows `aᵀx ≤ b` and `aᵀx = b`, all of one unit; sparse throughout.
+///
+/// Clarabel's tolerances are absolute. It is therefore given z, `x_k = d_k s z_k`: with columns scaled by d to a largest entry of
+/// one, and s the largest number in b and the targets, z is of order one in whatever units x and b are.
 #[derive(Clone, Debug)]
 pub(crate) struct Program {
     weight: Vec<f64>,
@@ -86,16 +89,23 @@ impl Program {
 
     pub(crate) fn solve(&self) -> Result<Vec<f64>, ProgramError> {
         let n = self.weight.len();
+        let Scales { columns, size, objective } = self.scales();
         let diagonal: Vec<usize> = (0..n).collect();
-        let quadratic = CscMatrix::new_from_triplets(n, n, diagonal.clone(), diagonal, self.weight.clone());
+        // Per s d and the objective's unit.
+        let weight: Vec<f64> =
+            (0..n).map(|k| self.weight[k] * (columns[k] * size).powi(2) / objective).collect();
+        let cost: Vec<f64> = (0..n).map(|k| self.cost[k] * columns[k] * size / objective).collect();
+        let quadratic = CscMatrix::new_from_triplets(n, n, diagonal.clone(), diagonal, weight);
         let (equations, bounds) = (self.equal_values.len(), self.bounds.len());
-        let below = self.entries.iter().map(|&(row, k, a)| (equations + row, k, a));
-        let entries = || self.equal_entries.iter().copied().chain(below.clone());
+        let scaled = |&(row, k, a): &(usize, usize, f64)| (row, k, a * columns[k]);
+        let equal = self.equal_entries.iter().map(scaled);
+        let below = self.entries.iter().map(scaled).map(|(row, k, a)| (equations + row, k, a));
+        let entries = || equal.clone().chain(below.clone());
         let rows = entries().map(|e| e.0).collect();
-        let columns = entries().map(|e| e.1).collect();
+        let places = entries().map(|e| e.1).collect();
         let values = entries().map(|e| e.2).collect();
-        let matrix = CscMatrix::new_from_triplets(equations + bounds, n, rows, columns, values);
-        let right = [self.equal_values.as_slice(), &self.bounds].concat();
+        let matrix = CscMatrix::new_from_triplets(equations + bounds, n, rows, places, values);
+        let right: Vec<f64> = self.equal_values.iter().chain(&self.bounds).map(|b| b / size).collect();
         let mut cones = vec![SupportedConeT::NonnegativeConeT(bounds)];
         if equations > 0 {
             cones.insert(0, SupportedConeT::ZeroConeT(equations));
@@ -105,11 +115,14 @@ impl Program {
             .verbose(false)
             .build()
             .map_err(|error| solver(error.to_string()))?;
-        let mut program = DefaultSolver::new(&quadratic, &self.cost, &matrix, &right, &cones, settings)
+        let mut program = DefaultSolver::new(&quadratic, &cost, &matrix, &right, &cones, settings)
             .map_err(|error| solver(error.to_string()))?;
         program.solve();
         match program.solution.status {
-            SolverStatus::Solved | SolverStatus::AlmostSolved => Ok(program.solution.x.clone()),
+            SolverStatus::Solved | SolverStatus::AlmostSolved => {
+                let z = program.solution.x.iter().zip(&columns);
+                Ok(z.map(|(z, column)| z * column * size).collect())
+            }
             SolverStatus::PrimalInfeasible | SolverStatus::AlmostPrimalInfeasible => {
                 Err(ProgramError::Infeasible)
             }
@@ -117,4 +130,35 @@ impl Program {
             other => Err(solver(other.to_string())),
         }
     }
+
+    fn scales(&self) -> Scales {
+        let n = self.weight.len();
+        let mut largest = vec![0.0_f64; n];
+        for &(_, k, a) in self.entries.iter().chain(&self.equal_entries) {
+            largest[k] = largest[k].max(a.abs());
+        }
+        // A variable without a row is held by its weight alone.
+        let columns: Vec<f64> = largest.iter().map(|&a| if a > 0.0 { 1.0 / a } else { 1.0 }).collect();
+        let targets =
+            (0..n).filter(|&k| self.weight[k] > 0.0).map(|k| self.cost[k] / self.weight[k] / columns[k]);
+        let numbers = self.bounds.iter().chain(&self.equal_values).copied().chain(targets);
+        let size = or_one(numbers.fold(0.0, |size, b| size.max(b.abs())));
+        let quadratic = (0..n).map(|k| self.weight[k] * (columns[k] * size).powi(2));
+        let linear =
+            (0..n).filter(|&k| self.weight[k] == 0.0).map(|k| self.cost[k].abs() * columns[k] * size);
+        Scales { objective: or_one(quadratic.chain(linear).fold(0.0, f64::max)), columns, size }
+    }
+}
+
+/// Units of a programme's numbers.
+struct Scales {
+    /// d, one for each variable.
+    columns: Vec<f64>,
+    /// s.
+    size: f64,
+    objective: f64,
+}
+
+fn or_one(size: f64) -> f64 {
+    if size > 0.0 { size } else { 1.0 }
 }

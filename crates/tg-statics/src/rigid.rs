@@ -18,7 +18,7 @@ const SAMPLES: usize = 4;
 /// Terms of the exponential series of a motion.
 const TERMS: u32 = 24;
 
-/// Rigid motions of a structure as coefficients of [`Tensioned::rigid_motions`].
+/// Rigid motions of a structure as coefficients of [`Tensioned::rigid_motions`], rotations per its size.
 #[derive(Clone, Debug)]
 pub(crate) struct RigidMotions {
     /// Coefficients, raw motions by free ones.
@@ -29,7 +29,7 @@ impl RigidMotions {
     /// The rigid motions at `q` that move no prescribed coordinate and break no constraint.
     pub(crate) fn free(structure: &dyn Tensioned, q: &[f64]) -> Result<Self, TangentError> {
         let mechanics = structure.mechanics();
-        let raw = columns(&structure.rigid_motions(q));
+        let raw = motions(structure, q);
         // An orthonormal set of fields at q: no rotation dominates far from the origin, and a straight line of points
         // has no spin.
         let (values, right) = dense::right_svd(&raw)?;
@@ -42,13 +42,17 @@ impl RigidMotions {
         let mut jacobian = vec![0.0; mechanics.jacobian_pattern().len()];
         mechanics.jacobian(q, &mut jacobian);
         let constraints = mechanics.sizes().constraints;
+        let mut norms = vec![0.0_f64; constraints];
+        for (&(row, _), a) in mechanics.jacobian_pattern().iter().zip(&jacobian) {
+            norms[row] = norms[row].hypot(*a);
+        }
         let mut held = Mat::zeros(prescribed.len() + constraints, kept);
         for k in 0..kept {
             for (row, &i) in prescribed.iter().enumerate() {
                 held[(row, k)] = fields[(i, k)];
             }
             for (&(row, i), a) in mechanics.jacobian_pattern().iter().zip(&jacobian) {
-                held[(prescribed.len() + row, k)] += a * fields[(i, k)] / mechanics.constraint_scales()[row];
+                held[(prescribed.len() + row, k)] += a * fields[(i, k)] / norms[row].max(f64::MIN_POSITIVE);
             }
         }
         Ok(Self { coefficients: &scaled * null_space(&held)? })
@@ -84,7 +88,7 @@ impl RigidMotions {
 
     /// The motions' velocity fields over the full coordinates at `q`.
     pub(crate) fn fields(&self, structure: &dyn Tensioned, q: &[f64]) -> Vec<Vec<f64>> {
-        let fields = columns(&structure.rigid_motions(q)) * &self.coefficients;
+        let fields = motions(structure, q) * &self.coefficients;
         (0..fields.ncols()).map(|k| fields.col(k).iter().copied().collect()).collect()
     }
 
@@ -113,8 +117,17 @@ impl RigidMotions {
     }
 }
 
-fn columns(vectors: &[Vec<f64>]) -> Mat<f64> {
-    Mat::from_fn(vectors.first().map_or(0, Vec::len), vectors.len(), |r, c| vectors[c][r])
+/// The velocity fields at q as columns, those of rotations per size of the structure: one unit for all of them.
+fn motions(structure: &dyn Tensioned, q: &[f64]) -> Mat<f64> {
+    let fields = structure.rigid_motions(q);
+    // D of the D(D+1)/2 are translations.
+    let translations = fields.len().div_ceil(2);
+    let size = structure.size();
+    Mat::from_fn(
+        q.len(),
+        fields.len(),
+        |r, c| if c < translations { fields[c][r] } else { fields[c][r] / size },
+    )
 }
 
 /// Orthonormal null space of a matrix with entries of order one.

@@ -6,10 +6,12 @@
 
 use tg_model::Mechanics;
 
+use crate::all_motions;
 use crate::configuration::Configuration;
 use crate::entries::Entries;
 use crate::error::TangentError;
 use crate::lanczos::{Krylov, Operator, RitzPair, dot};
+use crate::shift;
 use crate::shift_invert::ShiftInvert;
 use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Spectrum, sign};
 use crate::tangent::Tangent;
@@ -23,21 +25,21 @@ const STALLED: f64 = 1e-4;
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Products with `W⁻¹K` that estimate the largest |ν|; it is a scale only.
 const POWER_STEPS: u32 = 12;
-/// Solves that tell about where the first of positive eigenvalues is.
-const INVERSE_STEPS: u32 = 4;
 /// Eigenvalues closer than this part of each other's size are one multiple eigenvalue.
 const CLUSTER: f64 = 1e-6;
-/// The first distance of the shift from zero, in units of the zero limit.
-const FIRST_SHIFT: f64 = 4.0;
 
-struct Shifted<'a, 'm> {
-    inverse: &'a mut ShiftInvert<'m>,
+pub(crate) struct Shifted<'a, 'm> {
+    pub(crate) inverse: &'a mut ShiftInvert<'m>,
     metric: Option<&'a Entries>,
 }
 
 impl Operator for Shifted<'_, '_> {
     fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
         self.inverse.solve(wx, y)
+    }
+
+    fn project(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError> {
+        self.inverse.project(wx, y)
     }
 
     fn metric(&self, x: &[f64], wx: &mut [f64]) {
@@ -76,9 +78,9 @@ pub(crate) fn lowest(
     }
     let metric = (options.metric == Metric::Mass).then_some(&tangent.mass);
     let shift = if up_to_zero == 0 {
-        shift_below_positive(&mut Shifted { inverse: &mut inverse, metric }, n, zero_limit)?
+        shift::below_positive(&mut Shifted { inverse: &mut inverse, metric }, n, zero_limit)?
     } else {
-        shift_below_all(&mut inverse, &counts, zero_limit, largest)?
+        shift::below_all(&mut inverse, &counts, zero_limit, largest)?
     };
     let mut krylov = Krylov::new(n, freedom);
     loop {
@@ -86,19 +88,16 @@ pub(crate) fn lowest(
         let limit = (12 * wanted + 240).min(freedom);
         krylov.restart(&mut op)?;
         let pairs = converged(&mut krylov, &mut op, wanted, limit)?;
+        if krylov.dimension() == freedom {
+            let limits = (zero_limit, ROUNDING * largest);
+            let pairs = all_motions::pairs(&tangent, &krylov, &mut op, wanted, limits)?;
+            return Ok(Spectrum { pairs, counts, zero_limit, largest, method: Method::Sparse });
+        }
         let values: Vec<f64> = pairs.iter().map(|pair| shift + 1.0 / pair.theta).collect();
-        // Everything below the gap behind the last wanted pair.
-        let last = values.get(wanted - 1).copied().unwrap_or(shift);
-        let gap = CLUSTER * last.abs().max(zero_limit);
-        let expected = if krylov.is_full() {
-            wanted
-        } else {
-            let count = inverse.count_below(last + gap, 0.1 * gap)?;
-            inverse.factor_shifted(shift)?;
-            count
-        };
-        let found = values.iter().filter(|&&v| v <= last + gap).count();
-        if found >= expected.min(freedom) {
+        let known = Known { counts, zero_limit, largest };
+        let (expected, found) = known.census(&values, wanted, &mut inverse)?;
+        inverse.factor_shifted(shift)?;
+        if found >= expected {
             let pairs = pairs
                 .into_iter()
                 .take(wanted)
@@ -111,7 +110,7 @@ pub(crate) fn lowest(
                 method: Method::Sparse,
             });
         }
-        if krylov.dimension() >= limit {
+        if krylov.dimension() >= limit || krylov.is_full() {
             return Err(TangentError::NotConverged {
                 wanted: expected,
                 found,
@@ -121,59 +120,34 @@ pub(crate) fn lowest(
     }
 }
 
-/// A shift below all eigenvalues, which are positive, and not far below the first: convergence depends on the ratio of
-/// distances from the shift. The inverse iteration from the factors at hand says where the first is. Leaves the factors of
-/// the shift.
-fn shift_below_positive(op: &mut Shifted<'_, '_>, n: usize, zero_limit: f64) -> Result<f64, TangentError> {
-    let mut x: Vec<f64> = (0..n).map(|k| (1.0 + k as f64).sin()).collect();
-    let (mut wx, mut y) = (vec![0.0; n], vec![0.0; n]);
-    op.metric(&x, &mut wx);
-    let mut first = 0.0;
-    for _ in 0..INVERSE_STEPS {
-        op.apply(&wx, &mut y)?;
-        std::mem::swap(&mut x, &mut y);
-        let product = dot(&x, &wx);
-        op.metric(&x, &mut wx);
-        let square = dot(&x, &wx);
-        // No less than the first ν - σ, and σ is nearly zero beside it.
-        first = product / square;
-        let norm = square.sqrt();
-        x.iter_mut().chain(&mut wx).for_each(|x| *x /= norm);
-    }
-    let mut shift = first / 8.0;
-    while shift > zero_limit {
-        if matches!(op.inverse.factor_shifted(shift), Ok(Some(inertia)) if inertia.negative == 0) {
-            return Ok(shift);
-        }
-        shift /= 4.0;
-    }
-    op.inverse.factor_shifted(zero_limit / 2.0)?;
-    Ok(zero_limit / 2.0)
-}
-
-/// A shift below all eigenvalues, some of them zero or negative, about as far from zero as the first eigenvalue that is
-/// not: vectors next to zero modes that are blown up by more lose their digits. Leaves the factors of the shift.
-fn shift_below_all(
-    inverse: &mut ShiftInvert<'_>,
-    counts: &Counts,
+/// What inertia has told of the spectrum.
+struct Known {
+    counts: Counts,
     zero_limit: f64,
     largest: f64,
-) -> Result<f64, TangentError> {
-    let mut distance = FIRST_SHIFT * zero_limit;
-    while distance < 2.0 * largest {
-        let slack = 0.1 * distance;
-        let found = match counts.negative {
-            0 => inverse.count_below(distance, slack)? > counts.zero,
-            _ => inverse.count_below(-distance, slack)? == 0,
-        };
-        if found {
-            break;
+}
+
+impl Known {
+    /// How many eigenvalues there are up to just behind the last wanted of `values`, and how many of them are among these.
+    fn census(
+        &self,
+        values: &[f64],
+        wanted: usize,
+        inverse: &mut ShiftInvert<'_>,
+    ) -> Result<(usize, usize), TangentError> {
+        let up_to = |limit: f64| values.iter().filter(|&&v| v <= limit).count();
+        match values.get(wanted - 1) {
+            None => Ok((wanted, values.len())),
+            // Zeros are one multiple eigenvalue. A shift among them, closer than their rounding, has no inertia.
+            Some(last) if last.abs() <= self.zero_limit => {
+                Ok((self.counts.negative, up_to(-self.zero_limit)))
+            }
+            Some(last) => {
+                let gap = (CLUSTER * last.abs()).max(4.0 * ROUNDING * self.largest);
+                Ok((inverse.count_below(last + gap, 0.1 * gap)?, up_to(last + gap)))
+            }
         }
-        distance *= 4.0;
     }
-    let shift = if counts.negative == 0 { -distance / 4.0 } else { -distance };
-    inverse.factor_shifted(shift)?;
-    Ok(shift)
 }
 
 /// Grows the space until the pairs of the `wanted` largest θ have converged; those and some behind them.

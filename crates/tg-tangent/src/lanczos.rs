@@ -22,6 +22,8 @@ const LOST: f64 = 1e-4;
 /// The operator S and the metric W.
 pub(crate) trait Operator {
     fn apply(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError>;
+    /// y, nearest to x on the null space of A in the metric W.
+    fn project(&mut self, wx: &[f64], y: &mut [f64]) -> Result<(), TangentError>;
     fn metric(&self, x: &[f64], wx: &mut [f64]);
 }
 
@@ -59,11 +61,16 @@ impl Krylov {
         self.dimension() >= self.most
     }
 
+    /// The space's vectors as columns.
+    pub(crate) fn basis(&self) -> MatRef<'_, f64> {
+        columns(&self.v, self.size)
+    }
+
     /// Adds a block that starts from random vectors.
     pub(crate) fn restart(&mut self, op: &mut impl Operator) -> Result<(), TangentError> {
         let mut candidates = Vec::with_capacity(BLOCK * self.size);
         for _ in 0..BLOCK {
-            candidates.extend(self.random_vector(op)?);
+            candidates.extend(self.random_vector(op, true)?);
         }
         self.add(op, candidates)
     }
@@ -88,12 +95,9 @@ impl Krylov {
             self.take_out(known, x);
             let mut left = norm(op, x, &mut wx);
             if left <= LOST * before {
-                x.copy_from_slice(&self.random_vector(op)?);
-                let before = norm(op, x, &mut wx);
-                self.take_out(0, x);
-                left = norm(op, x, &mut wx);
+                left = self.anew(op, x, &mut wx)?;
                 // Nothing is left outside of the space: it is the whole null space.
-                if left <= LOST * before {
+                if left == 0.0 {
                     self.most = self.dimension();
                     break;
                 }
@@ -107,6 +111,21 @@ impl Krylov {
             self.sv.extend(sx);
         }
         Ok(())
+    }
+
+    /// A random vector in x without what the space has, and its length; zero where the space leaves nothing. S of one is nearly
+    /// all in the space where stiff motions follow soft ones that are known; then it is projected without S.
+    fn anew(&mut self, op: &mut impl Operator, x: &mut [f64], wx: &mut [f64]) -> Result<f64, TangentError> {
+        for through_s in [true, false] {
+            x.copy_from_slice(&self.random_vector(op, through_s)?);
+            let before = norm(op, x, wx);
+            self.take_out(0, x);
+            let left = norm(op, x, wx);
+            if left > LOST * before {
+                return Ok(left);
+            }
+        }
+        Ok(0.0)
     }
 
     /// Takes the space's vectors from `first` on out of x, of one or more columns, twice.
@@ -123,13 +142,19 @@ impl Krylov {
         }
     }
 
-    /// `S` times a random vector, which lies in the null space of A.
-    fn random_vector(&mut self, op: &mut impl Operator) -> Result<Vec<f64>, TangentError> {
+    /// `S` times a random vector, or its projection: both lie in the null space of A.
+    fn random_vector(&mut self, op: &mut impl Operator, through_s: bool) -> Result<Vec<f64>, TangentError> {
         let mut wx = vec![0.0; self.size];
         let start: Vec<f64> = (0..self.size).map(|_| self.next_random()).collect();
         op.metric(&start, &mut wx);
         let mut x = start;
-        op.apply(&wx, &mut x)?;
+        if through_s {
+            op.apply(&wx, &mut x)?;
+        } else {
+            // About √w z: light motions have the same share as heavy ones.
+            wx.iter_mut().zip(&x).for_each(|(wx, z)| *wx = (*wx * z).abs().sqrt().copysign(*z));
+            op.project(&wx, &mut x)?;
+        }
         Ok(x)
     }
 

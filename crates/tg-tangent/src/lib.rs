@@ -41,6 +41,7 @@
 //! | `[K, -Aᵀ; A, 0]`, `[M, -Aᵀ; A, 0]` | linear response under the constraints | [`Constrained`] |
 //! | (44) | lowest eigenpairs, inertia | [`lowest`], [`Spectrum`] |
 
+mod all_motions;
 mod augmentation;
 mod certified;
 mod configuration;
@@ -52,6 +53,7 @@ mod error;
 mod lanczos;
 mod null_space;
 mod reduced;
+mod shift;
 mod shift_invert;
 mod spectrum;
 mod tangent;

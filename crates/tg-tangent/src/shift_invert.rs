@@ -23,6 +23,8 @@ pub(crate) struct ShiftInvert<'m> {
     metric: Vec<f64>,
     augmentation: Vec<f64>,
     rhs: Vec<f64>,
+    /// σ of the last [`ShiftInvert::factor_shifted`].
+    shift: f64,
 }
 
 impl<'m> ShiftInvert<'m> {
@@ -60,6 +62,7 @@ impl<'m> ShiftInvert<'m> {
                 .map(|e| -at.lambda[e.constraint] * e.value)
                 .collect(),
             rhs: vec![0.0; system.pattern().size()],
+            shift: 0.0,
             mechanics,
             layout,
             system,
@@ -78,6 +81,7 @@ impl<'m> ShiftInvert<'m> {
 
     /// Factors at the shift σ; the inertia of K - σW on the null space of A, if the factors tell.
     pub(crate) fn factor_shifted(&mut self, shift: f64) -> Result<Option<Inertia>, TangentError> {
+        self.shift = shift;
         self.system.clear_leading();
         self.system.add_leading(STIFFNESS, 1.0, &self.stiffness);
         self.system.add_leading(HESSIAN, 1.0, &self.hessian);
@@ -103,6 +107,13 @@ impl<'m> ShiftInvert<'m> {
             }
         }
         Err(TangentError::NoInertia { shift })
+    }
+
+    /// `x` of `[W, -Aᵀ; A, 0] [x; y] = [b; 0]`; the factors at the shift are back afterwards.
+    pub(crate) fn project(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), TangentError> {
+        self.factor_metric()?;
+        self.solve(b, x)?;
+        self.factor_shifted(self.shift).map(drop)
     }
 
     /// `x` of `[K - σW, -Aᵀ; A, 0] [x; y] = [b; 0]`.

@@ -55,7 +55,11 @@ impl Axis {
     /// Asks at every value.
     pub(crate) fn follow(mut self, quick: bool) -> Found {
         let probes = std::mem::take(&mut self.probes).into_iter().filter(|probe| !(quick && probe.long));
-        let verdicts = probes.map(|probe| (probe.at, guarded(probe.ask))).collect();
+        let ask = |probe: Probe| {
+            eprintln!("  {}", probe.at);
+            (probe.at, guarded(probe.ask))
+        };
+        let verdicts = probes.map(ask).collect();
         Found { axis: self, verdicts }
     }
 }

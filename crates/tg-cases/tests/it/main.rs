@@ -5,5 +5,6 @@ mod antiprism;
 mod mechanism;
 mod outside;
 mod rows;
+mod scale;
 mod scenes;
 mod snapshots;

@@ -243,3 +243,15 @@ fn attachments_to_nowhere() {
         "joint \"pin\""
     );
 }
+
+#[test]
+fn a_structure_far_from_the_origin() {
+    let at = |x: f64| {
+        let mut b = ModelBuilder::<2>::new();
+        b.bar("bar", 1.0, [x, 0.0], [x + 1.0, 0.0])?;
+        b.build()
+    };
+    // A bar of 1 m keeps six digits up to 1e-6/ε m.
+    assert!(at(4e9).is_ok());
+    refused!(at(5e9), BuildError::FarFromOrigin { .. }, "5.0e9 m from the origin", "place the origin nearer");
+}

@@ -160,3 +160,55 @@ fn place_and_scale_do_not_matter() {
         .to_vec();
     assert_relative_eq!(reports[0], reports[1], max_relative = 1e-9);
 }
+
+/// A hinged bar between two springs at their rest lengths, pushed aside: where it settles no force acts at all.
+#[test]
+fn an_equilibrium_without_any_force() {
+    for law in [CableLaw::linear, CableLaw::slacking] {
+        for push in [1e-6, 1e-3, 0.1] {
+            let mut b = ModelBuilder::<2>::new();
+            let foot = b.anchor("foot", [0.0, 0.0]).unwrap();
+            let bar = b.bar("bar", 1.0, [0.0, 0.0], [f64::sin(push), f64::cos(push)]).unwrap();
+            b.joint("hinge", &[foot.into(), bar.node(0)], Joining::Share).unwrap();
+            for (name, x) in [("left", -1.0), ("right", 1.0)] {
+                let peg = b.anchor(name, [x, 1.0]).unwrap();
+                b.cable(name, peg, bar.node(1), law(100.0), 1.0).unwrap();
+            }
+            let model = b.build().unwrap();
+            let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
+            let found = Forward::new(&model, ForwardOptions::default()).solve(&q, &u).unwrap();
+            let tip = model.form(bar.node(1)).unwrap().eval(&found.configuration.q);
+            assert!(tip.x.abs() < 1e-12 && (tip.y - 1.0).abs() < 1e-12, "{push}: {tip}");
+        }
+    }
+}
+
+/// A shallow arch of two springs carries at most κ(l₀ - l) 2y/l at l³ = l₀; a load larger by a billionth has no shallow
+/// equilibrium, however little the forces miss it by.
+#[test]
+fn just_beyond_a_limit_point() {
+    let (stiffness, rise) = (50.0, 0.3_f64);
+    let rest = 1.0_f64.hypot(rise);
+    let carried = |y: f64| 2.0 * stiffness * (rest - 1.0_f64.hypot(y)) * y / 1.0_f64.hypot(y);
+    let limit = carried((rest.powf(2.0 / 3.0) - 1.0).sqrt());
+    for beyond in [-1e-9, 1e-10, 1e-9, 1e-8, 1e-6] {
+        let load = limit * (1.0 + beyond);
+        let mut b = ModelBuilder::<2>::new();
+        let crown = b.particle("crown", 1.0, [0.0, rise]).unwrap();
+        b.support("guide", crown.node(0), 0, 0.0).unwrap();
+        for (name, x) in [("left", -1.0), ("right", 1.0)] {
+            let peg = b.anchor(name, [x, 0.0]).unwrap();
+            b.cable(name, peg, crown.node(0), CableLaw::linear(stiffness), rest).unwrap();
+        }
+        b.load("press", crown.node(0), [0.0, -load], 1.0).unwrap();
+        let model = b.build().unwrap();
+        let (q, u) = (model.initial_coordinates(), model.inputs_at(0.0));
+        match Forward::new(&model, ForwardOptions::default()).solve(&q, &u) {
+            Ok(found) => {
+                let off = (carried(found.configuration.q[1]) - load).abs();
+                assert!(off < 1e-11, "{beyond:e}: a force of {off:.1e} N is left");
+            }
+            Err(error) => assert!(matches!(error, ForwardError::NotReached { .. }), "{error}"),
+        }
+    }
+}

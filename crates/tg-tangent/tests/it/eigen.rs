@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use tg_fixtures::{mast, prism, spine};
-use tg_model::{CableLaw, Mechanics, Model};
+use tg_model::{CableLaw, Mechanics, Model, ModelBuilder};
 use tg_tangent::{Configuration, Counts, EigenOptions, Method, Metric, Sign, Spectrum, Tangent, lowest};
 
 fn at(model: &Model<3>) -> Configuration {
@@ -155,5 +155,50 @@ fn nothing_asked_is_counted_all_the_same() {
         assert_eq!(found.counts, Counts { negative: 0, zero: 0, positive: 18 });
         let all = EigenOptions { method, ..EigenOptions::new(100, Metric::Mass) };
         assert_eq!(lowest(&model, &at(&model), &all).unwrap().pairs.len(), 18);
+    }
+}
+
+/// Two masses on a line with stiffnesses 1 and `ratio`: ω² are the roots of x² - (1 + 2 ratio) x + ratio.
+#[test]
+fn stiff_motions_beside_soft_ones() {
+    for ratio in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
+        let mut b = ModelBuilder::<2>::new();
+        let wall = b.anchor("wall", [0.0, 0.0]).unwrap();
+        let near = b.particle("near", 1.0, [1.0, 0.0]).unwrap();
+        let far = b.particle("far", 1.0, [2.0, 0.0]).unwrap();
+        for (name, mass) in [("near", near), ("far", far)] {
+            b.support(name, mass.node(0), 1, 0.0).unwrap();
+        }
+        b.cable("first", wall, near.node(0), CableLaw::linear(1.0), 1.0).unwrap();
+        b.cable("second", near.node(0), far.node(0), CableLaw::linear(ratio), 1.0).unwrap();
+        let model = b.build().unwrap();
+        let at = Configuration::at(&model, &model.initial_coordinates(), &model.inputs_at(0.0)).unwrap();
+        let larger = 0.5 + ratio + 0.5_f64.hypot(ratio);
+        for method in [Method::Dense, Method::Sparse] {
+            let options = EigenOptions { method, ..EigenOptions::new(2, Metric::Mass) };
+            let found = lowest(&model, &at, &options).unwrap();
+            for (pair, exact) in found.pairs.iter().zip([ratio / larger, larger]) {
+                let off = (pair.value - exact).abs();
+                assert!(off <= pair.accuracy, "{method:?}, {ratio:.0e}: {off:.1e} of {exact:.1e}");
+            }
+            assert_eq!(found.pairs.len(), 2);
+        }
+    }
+}
+
+/// One pair of six zeros: a shift just behind it lies among the others, where no factorisation tells the inertia.
+#[test]
+fn fewer_pairs_than_zeros() {
+    for bars in [3, 6, 9, 12] {
+        let model = prism(bars, 10.0, 0.0, CableLaw::slacking).unwrap().model;
+        for metric in [Metric::Mass, Metric::Coordinates] {
+            for count in [1, 4, 6, 7] {
+                let options = EigenOptions { method: Method::Sparse, ..EigenOptions::new(count, metric) };
+                let found = lowest(&model, &at(&model), &options).unwrap();
+                assert_eq!((found.pairs.len(), found.counts.zero, found.counts.negative), (count, 6, 0));
+                let zeros = found.pairs.iter().filter(|pair| pair.sign == Sign::Zero).count();
+                assert_eq!(zeros, count.min(6), "{bars} bars, {metric:?}, {count}");
+            }
+        }
     }
 }

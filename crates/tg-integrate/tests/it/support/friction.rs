@@ -34,6 +34,9 @@ impl Mechanics for Friction {
     fn constraint_scales(&self) -> &[f64] {
         &[]
     }
+    fn size(&self) -> f64 {
+        1.0
+    }
     fn prescribe(&self, _: f64, _: &mut [f64], _: &mut [f64]) {}
     fn prescribed_acceleration(&self, _: f64, _: &mut [f64]) {}
     fn inputs(&self, _: f64, _: &mut [f64]) {}
