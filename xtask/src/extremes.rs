@@ -5,12 +5,22 @@
 //!
 //! - `axis`: what is followed, and the values on it; `verdict`: what came of one, under guard;
 //! - `page`: `docs/limits.md`;
+//! - `scheme`: the time stepping schemes that axes share;
 //! - one file per group of axes.
 
 mod axis;
+mod jumps;
+mod long_runs;
+mod numbers;
 mod page;
+mod scheme;
+mod singular_poses;
+mod spin;
+mod step;
 mod stiffness;
+mod switching;
 mod verdict;
+mod zero_length;
 
 use std::path::Path;
 
@@ -35,7 +45,20 @@ pub(crate) struct Options {
 
 /// All axes in the order of the page.
 fn axes() -> Vec<Axis> {
-    [stiffness::axes()].into_iter().flatten().collect()
+    [
+        stiffness::axes(),
+        step::axes(),
+        long_runs::axes(),
+        spin::axes(),
+        zero_length::axes(),
+        singular_poses::axes(),
+        switching::axes(),
+        jumps::axes(),
+        numbers::axes(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Follows the axes; true if every answer was right or refused.

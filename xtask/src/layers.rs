@@ -50,6 +50,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
         "xtask",
         &[
             "tg-cases",
+            "tg-coords",
             "tg-equilibria",
             "tg-fixtures",
             "tg-integrate",
