@@ -63,6 +63,7 @@ mod runge_kutta;
 mod state;
 mod stepper;
 mod substep;
+mod supports;
 mod switching;
 mod symplectic;
 mod system;

@@ -29,7 +29,7 @@ pub(super) fn axes() -> Vec<Axis> {
             Probe::new(format!("{speed} m/s, {}", scheme.name()), move |_| kicked(scheme, speed))
         })
     });
-    let hinged = [None, Some(1e-12), Some(1e-6)].into_iter().flat_map(|duration| {
+    let hinged = [Some(0.1), Some(1e-2), Some(1e-4), Some(1e-6), None].into_iter().flat_map(|duration| {
         Scheme::ALL.map(|scheme| {
             Probe::new(format!("{}, {}", words(duration), scheme.name()), move |_| {
                 on_a_hinge(scheme, duration)
@@ -57,7 +57,7 @@ pub(super) fn axes() -> Vec<Axis> {
         Axis {
             title: "Ground that jumps in position under a hinge: duration of the ramp, s",
             setup: "The same hinge moves by 0.1 m: the bar turns by 0.15 rad and then with 1.7e-3/τ rad/s, τ being the duration of \
-                    the ramp, without bound as it becomes a jump. Fixed steps see a ramp no shorter than a step.",
+                    the ramp, without bound as it becomes a jump, which must be refused, in fixed steps also a ramp within a step.",
             probes: hinged.collect(),
             cause: "",
         },
@@ -173,9 +173,12 @@ fn on_a_hinge(scheme: Scheme, duration: Option<f64>) -> Verdict {
         let angle = turned * moved + rate * (1.0 - turned.cos()) * (since - duration).max(0.0);
         [JUMP * moved - angle.sin(), angle.cos()]
     };
+    let speed = JUMP / duration.unwrap_or(STEP);
+    // Behind the ramp it turns with 1.7e-3/τ.
+    let rate = 1.5 * speed * (1.0 - (1.5 * JUMP).cos()).max(duration.unwrap_or(0.0));
     let limit = match scheme {
-        Scheme::Controlled(_, tolerance) => 1e3 * tolerance,
-        _ => scheme.bound(1.5, (STEP, END)) + JUMP * STEP,
+        Scheme::Controlled(..) => 10.0 * scheme.bound(rate, (STEP, END)),
+        _ => scheme.bound(1.5 * speed, (STEP, END)) + speed * STEP,
     };
     hinged(scheme, signal(duration), exact, limit)
 }

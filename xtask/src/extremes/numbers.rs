@@ -147,7 +147,9 @@ fn settings() -> Vec<Probe> {
         ("coordinate of the start", NOT_FINITE, |bad| {
             every_start(|q, _| q.iter_mut().for_each(|q| *q *= bad), 0.0)
         }),
-        ("velocity of the start", NOT_FINITE, |bad| every_start(|_, v| v[6] = bad, 0.0)),
+        ("velocity of the start", NOT_FINITE, |bad| {
+            every_start(|_, v| v.iter_mut().for_each(|v| *v = bad), 0.0)
+        }),
         ("time of the start", NOT_FINITE, |bad| every_start(|_, _| {}, bad)),
         ("step", &[f64::NAN, f64::INFINITY, 0.0, -1e-3], |bad| every_step((bad, 1.0))),
         ("end", &[f64::NAN], |bad| every_step((1e-3, bad))),

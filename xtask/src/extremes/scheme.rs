@@ -68,12 +68,16 @@ impl Scheme {
     }
 
     /// Error that a motion of circular frequency `omega` may have after `end` seconds in steps of `h`, per size: the order's
-    /// (hω)^p ωt, but at most [`LOST`], and rounding of 4ε a step; under error control ten times the tolerance.
+    /// (hω)^p ωt, but at most [`LOST`], and rounding of 4ε a step; under error control ten times the tolerance and, since an
+    /// error of the energy changes the frequency, a tenth of it times (ωt)².
     pub(super) fn bound(self, omega: f64, (h, end): (f64, f64)) -> f64 {
         let rounding = 4.0 * f64::EPSILON * (1.0 + end / h);
         rounding
             + match self {
-                Self::Controlled(_, tolerance) => 10.0 * tolerance * (1.0 + omega * end),
+                Self::Controlled(_, tolerance) => {
+                    let angle = omega * end;
+                    tolerance * (10.0 * (1.0 + angle) + 0.1 * angle * angle)
+                }
                 _ => ((h * omega).powi(self.order()) * omega * end).min(LOST),
             }
     }
@@ -97,7 +101,7 @@ impl Scheme {
     }
 
     /// A run from the initial configuration with full velocities `v`: the largest of what `off` says of every state, and how the
-    /// acceleration turned.
+    /// acceleration turned in fixed steps.
     pub(super) fn follow<const D: usize>(
         self,
         model: &Model<D>,
@@ -112,7 +116,8 @@ impl Scheme {
         let mut turning = Turning::default();
         let run = Run::new(step, end).observe(&mut watch).observe(&mut turning);
         run.go(stepper.as_mut(), &mut state)?;
-        Ok((worst, turning))
+        let controlled = matches!(self, Self::Controlled(..));
+        Ok((worst, if controlled { Turning::default() } else { turning }))
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) fn axes() -> Vec<Axis> {
             title: "Parallelogram through its change point: angle from it where a step ends, rad",
             setup: "Crank and rocker of 1 m, coupler and ground of 2 m, no gravity: the crank turns with 1 rad/s, and the coupler \
                     does not turn, through the pose where all lie on a line and another branch begins. 1.5 s in steps of \
-                    0.01 s; distance of the coupler's ends from that.",
+                    0.01 s; distance of the coupler's ends from that. The limit: the scheme's, and rounding by δ², at most 1e-3 m.",
             probes: every(parallelogram).collect(),
             cause: "",
         },
@@ -78,6 +78,11 @@ pub(super) fn axes() -> Vec<Axis> {
 /// Angle at the start, so that a step of the exact motion ends `miss` before the singular pose at `pose`.
 fn start(pose: f64, miss: f64) -> f64 {
     pose - BEFORE - miss
+}
+
+/// The scheme's, and what rounding makes of accelerations so near: ε/δ² for a step, but no more than a thousandth.
+fn limit(scheme: Scheme, miss: f64) -> f64 {
+    scheme.bound(1.0, (STEP, BEFORE + BEHIND)) + (4.0 * f64::EPSILON / (miss * miss)).min(1e-3)
 }
 
 /// Velocities of a rigid member whose nodes move as `velocity` says of their positions.
@@ -126,7 +131,7 @@ fn parallelogram(scheme: Scheme, miss: f64) -> Verdict {
         };
         scheme.follow(&model, &v, (STEP, BEFORE + BEHIND), off)
     };
-    Verdict::of_motion(run(), scheme.bound(1.0, (STEP, BEFORE + BEHIND)))
+    Verdict::of_motion(run(), limit(scheme, miss))
 }
 
 /// Crank and rod, the rod's end on the x axis.
@@ -171,7 +176,7 @@ fn slider(scheme: Scheme, miss: f64) -> Verdict {
         };
         scheme.follow(&model, &v, (STEP, BEFORE + BEHIND), off)
     };
-    Verdict::of_motion(run(), scheme.bound(1.0, (STEP, BEFORE + BEHIND)))
+    Verdict::of_motion(run(), limit(scheme, miss))
 }
 
 fn chain(scheme: Scheme, bars: usize) -> Verdict {

@@ -16,8 +16,8 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Time for a cancelled question to come back.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// Angle by which the acceleration may turn in a step that resolves the motion \[rad\].
-const RESOLVED: f64 = 1.0;
+/// Angle by which the acceleration may turn in a step of a second-order scheme for a hundredth of error in a radian \[rad\].
+const RESOLVED: f64 = 0.3;
 
 /// What came of a question.
 #[derive(Clone, Debug, PartialEq)]
