@@ -10,9 +10,9 @@ use tg_sparse::{Row, SaddlePattern, SaddleSystem, SparseError, SymmetricSystem};
 use crate::layout::Layout;
 use crate::mechanics::Mechanics;
 
-/// Part of its gradient by which a constraint must differ from the others. Nearer to a singular pose rounding decides along
-/// which branch the structure goes on: velocities lose all but seven digits. The builder refuses a start at ten times that.
-const SINGULAR: f64 = 1e-9;
+/// Part of its gradient by which a constraint must differ from the others: some √ε. Branches that meet in a singular pose are as far
+/// apart as it is away; nearer than this rounding decides along which of them the structure goes on.
+const SINGULAR: f64 = 1e-7;
 
 /// `[M -Aᵀ; A 0]` of a system, its factors and buffers; factored at one configuration after another.
 pub struct InertialSystem<'m> {
