@@ -218,7 +218,10 @@ impl Stepper for Symplectic<'_> {
                 done
             };
             failed = done.err();
-            if failed.is_none() {
+            // A support that jumps does so in parts of the step as well, or an end of a part hides it.
+            let is_hopeless =
+                failed.as_ref().is_some_and(|f| matches!(f.failure, Failure::SupportJumps { .. }));
+            if failed.is_none() || is_hopeless {
                 break;
             }
         }

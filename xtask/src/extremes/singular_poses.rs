@@ -34,7 +34,10 @@ pub(super) fn axes() -> Vec<Axis> {
                     does not turn, through the pose where all lie on a line and another branch begins. 1.5 s in steps of \
                     0.01 s; distance of the coupler's ends from that. The limit: the scheme's, and rounding by δ², at most 1e-3 m.",
             probes: every(parallelogram).collect(),
-            cause: "",
+            cause: "In the pose itself the constraints do not determine the velocities. Branches are as far apart as the pose is away, so that \
+                    nearer than 1e-7, some √ε, rounding would choose one: such a pose is refused. Schemes of second order miss it by \
+                    the error of their phase and go on; those of high order meet it, and error control creeps up to it. \
+                    Another step, or the symplectic scheme, passes.",
         },
         Axis {
             title: "Slider through its crank's pivot: angle from it where a step ends, rad",

@@ -27,7 +27,7 @@ pub(super) fn axes() -> Vec<Axis> {
         .map(|rate: f64| Probe::new(format!("{rate:.0e}"), move |_| tumble(Scheme::Symplectic, rate, 0.01)));
     let schemes = Scheme::ALL
         .map(|scheme| Probe::new(format!("1e4, {}", scheme.name()), move |_| tumble(scheme, 1e4, 0.01)));
-    let angles = [1e-4, 1e-3, 1e-2, 0.1, 0.5, 1.0, 2.0, 3.0, std::f64::consts::TAU, 10.0, 100.0];
+    let angles = [1e-3, 1e-2, 0.1, 0.3, 0.5, 1.0, 2.0, 3.0, std::f64::consts::TAU, 10.0];
     let coarse = angles.into_iter().flat_map(|angle| {
         [Scheme::Symplectic, Scheme::Leapfrog, Scheme::GeneralizedAlpha, Scheme::Fixed(Default::default())]
             .map(|scheme| {

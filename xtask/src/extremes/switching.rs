@@ -42,7 +42,9 @@ pub(super) fn axes() -> Vec<Axis> {
                     m/s². 0.2 s in steps of 1 ms; distance from the closed form: a parabola, then two exponentials. The \
                     limit is the way in two steps, under error control 100 times the tolerance.",
             probes: damped.collect(),
-            cause: "",
+            cause: "Above h η/m = 2 implicit steps reverse the closing velocity instead of stopping it, which `Turning` tells as a velocity that \
+                    jumps; explicit ones multiply it, until the motion has no bound. Error control follows the damper as long \
+                    as its substeps last.",
         },
     ]
 }

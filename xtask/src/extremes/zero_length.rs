@@ -58,7 +58,7 @@ pub(super) fn axes() -> Vec<Axis> {
             title: "Start with the ends of a cable in one point",
             setup: "A particle starts at its cable's anchor with 1 m/s; 0.5 s in steps of 1 ms, against the closed form.",
             probes: meeting.collect(),
-            cause: "",
+            cause: "At length zero the force has no direction: schemes that ask for it there refuse; those that ask within the step find it.",
         },
     ]
 }
