@@ -255,7 +255,7 @@ impl<'m> RungeKutta<'m> {
         match refused {
             Outcome::Failed(error) => equations.failure(error),
             Outcome::Apart(residual) => equations.not_projected(residual),
-            Outcome::TooLong(error, worst) if error.is_nan() => {
+            Outcome::TooLong(_, worst) if !self.substep.rates.iter().all(|rate| rate.is_finite()) => {
                 let (worst, cables) = equations.words(worst);
                 StepFailure::NotFinite { worst, cables }
             }
