@@ -5,21 +5,30 @@
 //!
 //! - `axis`: what is followed, and the values on it; `verdict`: what came of one, under guard;
 //! - `page`: `docs/limits.md`;
-//! - `chain`: a chain of masses, asked by several axes;
+//! - `chain`: a chain of masses, and `scheme`: the time stepping schemes, asked by several axes;
 //! - one file per group of axes.
 
 mod axis;
 mod bases;
 mod bifurcation;
 mod chain;
+mod jumps;
 mod lengths;
+mod long_runs;
 mod many;
+mod numbers;
 mod page;
 mod prestress;
 mod ratios;
 mod redundant;
+mod scheme;
+mod singular_poses;
+mod spin;
+mod step;
 mod stiffness;
+mod switching;
 mod verdict;
+mod zero_length;
 
 use std::path::Path;
 
@@ -49,11 +58,19 @@ fn axes() -> Vec<Axis> {
         ratios::stiffness(),
         ratios::masses(),
         lengths::axes(),
+        step::axes(),
+        long_runs::axes(),
+        spin::axes(),
         bases::axes(),
+        zero_length::axes(),
+        singular_poses::axes(),
         redundant::axes(),
+        switching::axes(),
         prestress::axes(),
         bifurcation::axes(),
+        jumps::axes(),
         many::axes(),
+        numbers::axes(),
     ];
     groups.into_iter().flatten().collect()
 }

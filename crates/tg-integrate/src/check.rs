@@ -59,3 +59,30 @@ pub(crate) fn step(state: &State, h: f64, sizes: Sizes, memory: usize) -> Result
         }
     }
 }
+
+/// Sum of all coordinates and velocities beyond which a motion counts as unbounded: of such a coordinate the rounding is a metre.
+const UNBOUNDED: f64 = 1e15;
+
+/// Refuses what an explicit scheme came to, if it is not finite or has no bound. `explicit` schemes have no residual that would
+/// say so.
+pub(crate) fn bounded(mechanics: &dyn Mechanics, q: &[f64], v: &[f64]) -> Result<(), StepFailure> {
+    let sum: f64 = q.iter().zip(v).map(|(q, v)| q.abs() + v.abs()).sum();
+    if sum < UNBOUNDED { Ok(()) } else { Err(unbounded(mechanics, q, v)) }
+}
+
+#[cold]
+fn unbounded(mechanics: &dyn Mechanics, q: &[f64], v: &[f64]) -> StepFailure {
+    let sizes = || q.iter().zip(v).map(|(q, v)| q.abs() + v.abs()).enumerate();
+    // A number that is none weighs most.
+    let (worst, size) =
+        sizes().fold(
+            (0, 0.0),
+            |most, (i, size)| if size <= most.1 || f64::is_nan(most.1) { most } else { (i, size) },
+        );
+    let (name, cables) = (mechanics.coordinate_name(worst), mechanics.cables_at(worst));
+    if size.is_finite() {
+        StepFailure::Unbounded { size, worst: name, cables }
+    } else {
+        StepFailure::NotFinite { worst: name, cables }
+    }
+}

@@ -107,6 +107,29 @@ pub enum StepFailure {
         /// Cables at that coordinate.
         cables: Vec<String>,
     },
+    /// An explicit scheme lets the motion grow without bound.
+    #[error(
+        "the motion has grown to {size:.1e} at the {worst}{}: the step is too long for an explicit scheme; take a smaller step, error control, or the symplectic scheme",
+        at_cables(cables)
+    )]
+    Unbounded {
+        /// Largest coordinate or velocity \[m or m/s\].
+        size: f64,
+        /// The coordinate.
+        worst: String,
+        /// Cables at that coordinate.
+        cables: Vec<String>,
+    },
+    /// A support jumps under something that has mass or constraints.
+    #[error(
+        "the support of the {coordinate} moves by {distance:.3e} m within the step, though it rests at both ends: what is joined to it would be thrown the farther the shorter the step; let it move in a ramp that several steps resolve"
+    )]
+    SupportJumps {
+        /// The prescribed coordinate.
+        coordinate: String,
+        /// How far it moves \[m\].
+        distance: f64,
+    },
     /// The linear system cannot be solved.
     #[error(
         "the linear system cannot be solved at the {culprit} ({source}); the structure is in a singular pose, or constraints are redundant"

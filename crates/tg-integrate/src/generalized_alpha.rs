@@ -16,6 +16,7 @@ use crate::check;
 use crate::error::{StartError, StepError};
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
+use crate::supports::Supports;
 use crate::system::{Factors, Failure, NewtonSystem, Worst};
 
 /// Coefficients for one spectral radius.
@@ -33,6 +34,7 @@ pub struct GeneralizedAlpha<'m> {
     c: Coefficients,
     system: NewtonSystem<'m>,
     projector: Projector<'m>,
+    supports: Supports,
     q: Vec<f64>,
     v: Vec<f64>,
     /// q̈ at the end of the step, full.
@@ -80,6 +82,7 @@ impl<'m> GeneralizedAlpha<'m> {
             c,
             system,
             projector: Projector::new(mechanics)?,
+            supports: Supports::new(mechanics),
             q: zeros(),
             v: zeros(),
             acceleration: zeros(),
@@ -230,7 +233,9 @@ impl Stepper for GeneralizedAlpha<'_> {
         for (delta, a) in self.delta.iter_mut().zip(&self.a) {
             *delta = h * h * self.c.beta * a;
         }
-        match self.iterate(state, h) {
+        let checked = self.supports.check(state, &self.q, &self.v, h);
+        let checked = checked.map_err(|jump| (jump, 0, self.system.worst(0.0)));
+        match checked.and_then(|()| self.iterate(state, h)) {
             Ok((iterations, residual)) => {
                 let n = self.q.len();
                 state.advance_time(h);

@@ -18,6 +18,7 @@ use crate::check;
 use crate::error::{StartError, StepError};
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
+use crate::supports::Supports;
 use crate::system::{Failure, larger};
 
 /// The leapfrog scheme: the cheapest of second order on structures that are not stiff. The memory of a state is: length of the
@@ -26,6 +27,7 @@ pub struct Leapfrog<'m> {
     options: NewtonOptions,
     mechanics: &'m dyn Mechanics,
     projector: Projector<'m>,
+    supports: Supports,
     inertia: Inertia,
     runs: Vec<Run>,
     unknowns: usize,
@@ -60,6 +62,7 @@ impl<'m> Leapfrog<'m> {
             options,
             mechanics,
             projector,
+            supports: Supports::new(mechanics),
             inertia: Inertia::new(sizes.coordinates, mechanics.mass()),
             runs,
             unknowns,
@@ -90,6 +93,7 @@ impl<'m> Leapfrog<'m> {
         self.q.copy_from_slice(&state.q);
         self.v.copy_from_slice(&state.v);
         self.mechanics.prescribe(state.t + h, &mut self.q, &mut self.v);
+        self.supports.check(state, &self.q, &self.v, h).map_err(Failed::at_start)?;
         for ((delta, q), start) in self.delta.iter_mut().zip(&self.q).zip(&state.q) {
             *delta = q - start;
         }
@@ -124,7 +128,11 @@ impl<'m> Leapfrog<'m> {
             }
             let failed = |failure| Failed { failure, iterations: iteration, residual };
             if !residual.is_finite() {
-                return Err(failed(Failure::NotFinite));
+                // Without a bad number at the start, the iteration has run away.
+                let ran_away = iteration > 0 && force.iter().all(|force| force.is_finite());
+                let (failure, residual) =
+                    if ran_away { (Failure::NotConverged, before) } else { (Failure::NotFinite, residual) };
+                return Err(Failed { residual, ..failed(failure) });
             }
             before = residual;
             self.projector.system().solve(&mut self.rhs).map_err(|source| failed(Failure::Solver(source)))?;
@@ -195,6 +203,7 @@ impl<'m> Leapfrog<'m> {
         };
         factored.fill(f64::NAN);
         projector.velocity_after_impulse(q, impulse, v).map_err(Failure::Projection)?;
+        check::bounded(self.mechanics, q, v).map_err(Failure::Told)?;
         factored.copy_from_slice(q);
         state.advance_time(h);
         state.q.copy_from_slice(&self.q);

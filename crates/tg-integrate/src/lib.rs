@@ -63,9 +63,11 @@ mod runge_kutta;
 mod state;
 mod stepper;
 mod substep;
+mod supports;
 mod switching;
 mod symplectic;
 mod system;
+mod turning;
 
 pub use composition::{Composition, CompositionScheme};
 pub use error::{StartError, StepError, StepFailure};
@@ -78,3 +80,4 @@ pub use runge_kutta::{EmbeddedPair, RungeKutta};
 pub use state::State;
 pub use stepper::{NewtonOptions, StepReport, Stepper};
 pub use symplectic::Symplectic;
+pub use turning::Turning;

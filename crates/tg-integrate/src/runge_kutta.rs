@@ -15,14 +15,14 @@
 use tg_model::{Mechanics, Projector};
 use tg_sparse::SparseError;
 
-use crate::check::{self, ASSEMBLED};
+use crate::check;
 use crate::dormand_prince::{DORMAND_PRINCE_5, DORMAND_PRINCE_8, Tableau};
 use crate::error::{StartError, StepError, StepFailure};
 use crate::error_control::{Controller, Tolerances};
 use crate::index_one::IndexOne;
 use crate::state::State;
 use crate::stepper::{StepReport, Stepper};
-use crate::substep::Substep;
+use crate::substep::{Projected, Substep};
 use crate::switching::Switch;
 
 /// Times that a substep may be shortened to end at a switch; two or three suffice.
@@ -62,9 +62,9 @@ impl EmbeddedPair {
 /// is carried in the state, so that a checkpoint continues bit for bit. Of the report, `iterations` counts evaluations
 /// of the accelerations (one factorisation each), `substeps` the accepted substeps, `rejected` those that were made
 /// again, `frozen` those that end at a switch, `forced` switches that were passed over. The multipliers of a state are those
-/// at its time. Kinks of ramps and tables that move supports are not located: let steps end there, or the order
-/// is lost and the error is larger than the tolerance. The memory of a state is: substep, error, speed at the start, accelerations
-/// of the free components.
+/// at its time. Under error control substeps also end where the velocity of a support jumps that carries mass or a joint; with fixed
+/// steps, let them end there, or the order is lost. The memory of a state is: substep, error, speed at the start, accelerations of
+/// the free components.
 ///
 /// ```
 /// use tg_integrate::{EmbeddedPair, Run, RungeKutta, Stepper, Tolerances};
@@ -94,7 +94,7 @@ enum Outcome {
     Shorten(f64),
     /// It has to begin with another active set.
     Reopened,
-    /// The error is above one or NaN; the free component where it is largest.
+    /// The error is above one or NaN; the coordinate where it is largest.
     TooLong(f64, usize),
     /// The end is too far from the constraints to be projected; their scaled residual.
     Apart(f64),
@@ -135,11 +135,15 @@ impl<'m> RungeKutta<'m> {
     }
 
     /// One step of the method.
-    fn fixed_step(&mut self, t: f64, h: f64, report: &mut StepReport) -> Result<(), StepFailure> {
-        let substep = &mut self.substep;
+    fn fixed_step(&mut self, state: &State, h: f64, report: &mut StepReport) -> Result<(), StepFailure> {
+        let (t, substep) = (state.t, &mut self.substep);
+        if let Err(jump) = substep.equations.check_supports(state, h) {
+            let mechanics = substep.equations.mechanics;
+            return Err(jump.explain(mechanics, (String::new(), Vec::new()), 0, f64::NAN));
+        }
         match substep.attempt(t, h, report).and_then(|_| substep.accept(t + h, report)) {
-            Ok(residual) if residual <= ASSEMBLED => Ok(()),
-            Ok(residual) => Err(substep.equations.not_projected(residual)),
+            Ok(Projected::Done | Projected::Moved(..)) => Ok(()),
+            Ok(Projected::Apart(residual)) => Err(substep.equations.not_projected(residual)),
             Err(error) => Err(substep.equations.failure(error)),
         }
     }
@@ -236,9 +240,10 @@ impl<'m> RungeKutta<'m> {
                 (Switch::AtEnd, _) => (1, 0),
                 (Switch::None, _) => (0, 0),
             };
-            let residual = substep.accept(t_end, report)?;
-            if residual.is_nan() || residual > ASSEMBLED {
-                return Ok(Outcome::Apart(residual));
+            match substep.accept(t_end, report)? {
+                Projected::Done => {}
+                Projected::Apart(residual) => return Ok(Outcome::Apart(residual)),
+                Projected::Moved(moved, worst) => return Ok(Outcome::TooLong(moved, worst)),
             }
             report.frozen += frozen;
             report.forced += forced;
@@ -253,12 +258,16 @@ impl<'m> RungeKutta<'m> {
         match refused {
             Outcome::Failed(error) => equations.failure(error),
             Outcome::Apart(residual) => equations.not_projected(residual),
+            Outcome::TooLong(_, worst) if !self.substep.rates.iter().all(|rate| rate.is_finite()) => {
+                let (worst, cables) = equations.words(worst);
+                StepFailure::NotFinite { worst, cables }
+            }
             Outcome::TooLong(_, worst) => {
                 let (worst, cables) = equations.words(worst);
                 StepFailure::StepTooSmall { at, substep, worst, cables }
             }
             Outcome::Accepted(_) | Outcome::Shorten(_) | Outcome::Reopened => {
-                let (worst, cables) = equations.words(0);
+                let (worst, cables) = equations.words(equations.mechanics.free()[0]);
                 StepFailure::StepTooSmall { at, substep, worst, cables }
             }
         }
@@ -302,8 +311,10 @@ impl Stepper for RungeKutta<'_> {
         let mut controller = Controller::new(state.memory[0], state.memory[1]);
         let done = match substep.tolerances {
             Some(tolerances) => self.controlled_step((t, h), tolerances, &mut controller, &mut report),
-            None => self.fixed_step(t, h, &mut report),
+            None => self.fixed_step(state, h, &mut report),
         };
+        let equations = &self.substep.equations;
+        let done = done.and_then(|()| check::bounded(equations.mechanics, &equations.q, &equations.v));
         if let Err(failure) = done {
             return Err(StepError { t, h, residual: f64::NAN, failure });
         }

@@ -8,6 +8,20 @@ use crate::error_control::Tolerances;
 use crate::index_one::IndexOne;
 use crate::stepper::StepReport;
 
+/// Tolerances by which the projection may move the end of a substep: what drifts from the constraints is a part of its error. Where
+/// they all but lose their rank rounding drifts as far.
+const MOST_MOVED: f64 = 10.0;
+
+/// What came of the projection of a substep's end.
+pub(crate) enum Projected {
+    /// The end is the start of what follows.
+    Done,
+    /// The end is too far from the constraints; their scaled residual. Nothing was accepted.
+    Apart(f64),
+    /// The projection moved the end by more than the error control allows, most at this coordinate. Nothing was accepted.
+    Moved(f64, usize),
+}
+
 /// The equations, a method, and where they are in a step. Vectors are packed: free components of q, then of q̇.
 pub(crate) struct Substep<'m> {
     pub(crate) tableau: &'static Tableau,
@@ -57,8 +71,8 @@ impl<'m> Substep<'m> {
         }
     }
 
-    /// Stages, end and the evaluation there, from `start` and k_1; the scaled error and the free component where it is
-    /// largest. An error above one, or NaN, leaves the end without its evaluation.
+    /// Stages, end and the evaluation there, from `start` and k_1; the scaled error and the coordinate where it is largest. An
+    /// error above one, or NaN, leaves the end without its evaluation.
     pub(crate) fn attempt(
         &mut self,
         t: f64,
@@ -75,8 +89,12 @@ impl<'m> Substep<'m> {
         if tableau.error_uses_end {
             self.evaluate(t + h, tableau.stages(), report)?;
         }
+        let (missed, support) = self.equations.jumps((t, h), tableau, self.tolerances);
         let (error, worst) = match self.tolerances {
-            Some(tolerances) => self.error(h, &tolerances),
+            Some(tolerances) => match self.error(h, &tolerances) {
+                (error, _) if error < missed => (missed, support),
+                found => found,
+            },
             None => (0.0, 0),
         };
         if error <= 1.0 && !tableau.error_uses_end {
@@ -98,9 +116,8 @@ impl<'m> Substep<'m> {
         self.equations.accelerate(frozen.then_some(&self.taut), acceleration)
     }
 
-    /// Projects the end and makes it the start of what follows; the active set becomes the laws'. The scaled residual of the
-    /// constraints; above [`ASSEMBLED`] the projection failed, and nothing was accepted.
-    pub(crate) fn accept(&mut self, t_end: f64, report: &mut StepReport) -> Result<f64, SparseError> {
+    /// Projects the end and makes it the start of what follows; the active set becomes the laws'.
+    pub(crate) fn accept(&mut self, t_end: f64, report: &mut StepReport) -> Result<Projected, SparseError> {
         let (n, size) = (self.jump.len(), self.start.len());
         let last = self.rates.len() - size;
         self.equations.place(t_end, &self.end);
@@ -111,20 +128,54 @@ impl<'m> Substep<'m> {
                 self.lambda.copy_from_slice(self.equations.multipliers());
             }
         }
+        self.stage.copy_from_slice(&self.end);
         let residual = self.equations.project(&mut self.end)?;
         if residual.is_nan() || residual > ASSEMBLED {
-            return Ok(residual);
+            return Ok(Projected::Apart(residual));
+        }
+        let kicked = self.equations.kicked();
+        if let (Some(tolerances), false) = (self.tolerances, kicked) {
+            let (moved, worst) = self.moved(&tolerances);
+            if moved > MOST_MOVED {
+                return Ok(Projected::Moved(moved, worst));
+            }
         }
         report.residual = report.residual.max(residual);
         report.substeps += 1;
         self.taut.copy_from_slice(&self.taut_then);
+        if kicked {
+            // Velocities behind a kick are others than those that the accelerations were found with.
+            self.stage.copy_from_slice(&self.end);
+            self.evaluate(t_end, self.tableau.stages(), report)?;
+            self.lambda.copy_from_slice(self.equations.multipliers());
+        }
         self.start.copy_from_slice(&self.end);
         self.rates.copy_within(last.., 0);
         self.rates[..n].copy_from_slice(&self.end[n..]);
-        Ok(residual)
+        Ok(Projected::Done)
     }
 
-    /// Scaled error of the end and the free component where it is largest.
+    /// How far the projection has moved the end from `stage`, scaled as errors are, and the coordinate that it moved most.
+    fn moved(&self, tolerances: &Tolerances) -> (f64, usize) {
+        let (length, speed) = (self.equations.mechanics.size(), self.speed());
+        let (mut sum, mut largest, mut worst) = (0.0, 0.0, 0);
+        for (i, (end, before)) in self.end.iter().zip(&self.stage).enumerate() {
+            let size = if i < self.jump.len() { length } else { speed };
+            let moved = (end - before).abs() / tolerances.scale(*end, *end, size);
+            sum += moved * moved;
+            if moved > largest {
+                (largest, worst) = (moved, i);
+            }
+        }
+        ((sum / self.end.len() as f64).sqrt(), self.coordinate(worst))
+    }
+
+    /// The full coordinate of a packed component.
+    fn coordinate(&self, component: usize) -> usize {
+        self.equations.mechanics.free()[component % self.jump.len()]
+    }
+
+    /// Scaled error of the end and the coordinate where it is largest.
     fn error(&mut self, h: f64, tolerances: &Tolerances) -> (f64, usize) {
         for (error, terms) in self.errors.iter_mut().zip(self.tableau.errors) {
             error.fill(0.0);
@@ -133,21 +184,22 @@ impl<'m> Substep<'m> {
         let [first, second] = &self.errors;
         let n = self.jump.len();
         let (length, speed) = (self.equations.mechanics.size(), self.speed());
-        let (mut sums, mut largest, mut worst) = ([0.0, 0.0], 0.0, 0);
+        let (mut sums, mut largest, mut worst) = ([0.0, 0.0], 0.0_f64, 0);
         for i in 0..first.len() {
             let size = if i < n { length } else { speed };
             let scale = tolerances.scale(self.start[i], self.end[i], size);
             let (e, other) = (first[i] / scale, second[i] / scale);
             sums[0] += e * e;
             sums[1] += other * other;
-            if e.abs() > largest {
-                (largest, worst) = (e.abs(), i % n);
+            // The first that is no number stays.
+            if e.abs() > largest || (e.is_nan() && !largest.is_nan()) {
+                (largest, worst) = (e.abs(), i);
             }
         }
         // With one estimate the second sum is zero; two of orders 5 and 3 combine to one of order 8
         // (Hairer, Nørsett, Wanner, Sec. II.10).
         let error = if sums[0] == 0.0 { 0.0 } else { sums[0] / (sums[0] + 0.01 * sums[1]).sqrt() };
-        (error / (first.len() as f64).sqrt(), worst)
+        (error / (first.len() as f64).sqrt(), self.coordinate(worst))
     }
 
     /// V of the substep.

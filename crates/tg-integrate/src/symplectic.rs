@@ -40,6 +40,7 @@ use crate::kept::Kept;
 use crate::previous::Previous;
 use crate::state::State;
 use crate::stepper::{NewtonOptions, StepReport, Stepper};
+use crate::supports::Supports;
 use crate::system::{Failure, NewtonSystem, Worst};
 
 /// The modified symplectic scheme: second order, no numerical dissipation, one step of history.
@@ -47,6 +48,7 @@ pub struct Symplectic<'m> {
     options: NewtonOptions,
     system: NewtonSystem<'m>,
     projector: Projector<'m>,
+    supports: Supports,
     work: Work,
     /// Where the factors that the system holds were taken.
     factored: Factored,
@@ -146,6 +148,7 @@ impl<'m> Symplectic<'m> {
             },
             project: true,
             either_way: false,
+            supports: Supports::new(mechanics),
             system,
             projector,
         })
@@ -215,7 +218,10 @@ impl Stepper for Symplectic<'_> {
                 done
             };
             failed = done.err();
-            if failed.is_none() {
+            // A support that jumps does so in parts of the step as well, or an end of a part hides it.
+            let is_hopeless =
+                failed.as_ref().is_some_and(|f| matches!(f.failure, Failure::SupportJumps { .. }));
+            if failed.is_none() || is_hopeless {
                 break;
             }
         }

@@ -225,6 +225,10 @@ impl Failure {
                 StepFailure::Solver { culprit: Layout::new(mechanics).name(mechanics, &source), source }
             }
             Self::Projection(error) => StepFailure::Projection(error),
+            Self::Told(failure) => failure,
+            Self::SupportJumps { coordinate, distance } => {
+                StepFailure::SupportJumps { coordinate: mechanics.coordinate_name(coordinate), distance }
+            }
         }
     }
 }
@@ -254,4 +258,10 @@ pub(crate) enum Failure {
     NotFinite,
     Solver(SparseError),
     Projection(ProjectionError),
+    SupportJumps {
+        coordinate: usize,
+        distance: f64,
+    },
+    /// In words already.
+    Told(StepFailure),
 }

@@ -81,7 +81,9 @@ impl Drive {
     pub(crate) fn inputs(&self, t: f64, u: &mut [f64]) {
         u.copy_from_slice(&self.inputs);
         for (i, factor, signal) in &self.driven {
-            u[*i] = factor * signal.at(t).0;
+            let value = factor * signal.at(t).0;
+            // Infinity would pass for a cable that is slack for ever.
+            u[*i] = if value.is_finite() { value } else { f64::NAN };
         }
     }
 

@@ -5,10 +5,14 @@
 //! [A   0] [y] = [g]        M constant, A = A(q), free components
 //! ```
 
-use tg_sparse::{SaddlePattern, SaddleSystem, SparseError, SymmetricSystem};
+use tg_sparse::{Row, SaddlePattern, SaddleSystem, SparseError, SymmetricSystem};
 
 use crate::layout::Layout;
 use crate::mechanics::Mechanics;
+
+/// Part of its gradient by which a constraint must differ from the others: some √ε. Branches that meet in a singular pose are as far
+/// apart as it is away; nearer than this rounding decides along which of them the structure goes on.
+const SINGULAR: f64 = 1e-7;
 
 /// `[M -Aᵀ; A 0]` of a system, its factors and buffers; factored at one configuration after another.
 pub struct InertialSystem<'m> {
@@ -74,14 +78,41 @@ impl<'m> InertialSystem<'m> {
     /// Factors at full coordinates `q`.
     ///
     /// # Errors
-    /// The matrix is singular or not finite.
+    /// The matrix is singular or not finite, or all but singular: a pose in which constraints lose their rank.
     pub fn factor(&mut self, q: &[f64]) -> Result<(), SparseError> {
         self.mechanics.jacobian(q, &mut self.jacobian);
         self.is_robust = false;
         match self.system.factor(&self.jacobian) {
             Ok(()) => Ok(()),
-            Err(_) => self.factor_robustly(),
+            Err(weak) => {
+                self.factor_robustly()?;
+                match weak.row() {
+                    Some(row @ Row::Multiplier(_)) => self.check_rank(row),
+                    _ => Ok(()),
+                }
+            }
         }
+    }
+
+    /// Refuses a pose in which a displacement of size one changes no constraint by more than [`SINGULAR`], all else being held.
+    /// `row` is where elimination first lost digits.
+    #[cold]
+    fn check_rank(&mut self, row: Row) -> Result<(), SparseError> {
+        let n = self.layout.unknowns();
+        let mut changes = vec![0.0; self.size()];
+        for (&(constraint, coordinate), a) in self.mechanics.jacobian_pattern().iter().zip(&self.jacobian) {
+            if self.layout.unknown(coordinate).is_some() {
+                changes[n + constraint] += a * a;
+            }
+        }
+        // Each by the size of its gradient, with irregular shares: no symmetry is to hide the weak direction.
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        for (j, change) in changes[n..].iter_mut().enumerate() {
+            *change = change.sqrt() * (0.5 + (golden * j as f64).fract());
+        }
+        self.solve(&mut changes)?;
+        let largest = changes[..n].iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        if largest * SINGULAR < 1.0 { Ok(()) } else { Err(SparseError::Singular { row }) }
     }
 
     /// Factors where [`InertialSystem::factor`] did last, with every check and with pivoting if need be.

@@ -55,7 +55,9 @@ impl<const SLACKING: bool, const DAMPED: bool> Law for LinearLaw<SLACKING, DAMPE
     }
 
     fn taut(&self, length: f64, rate: f64, rest: f64) -> bool {
-        length >= rest && (!DAMPED || self.taut_tension(length, rate, rest) >= 0.0)
+        // What is no number counts as taut, so that the force shows it.
+        let slack = length < rest || (DAMPED && self.taut_tension(length, rate, rest) < 0.0);
+        !slack
     }
 }
 

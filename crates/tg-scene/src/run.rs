@@ -26,7 +26,7 @@ pub struct RunSection {
     /// Error control of a Runge–Kutta scheme: error of each of its substeps relative to coordinates and
     /// velocities, a hundredth of it \[m, m/s\] where these are near zero. Fixed steps if not given.
     pub tolerance: Option<Quantity>,
-    /// Spectral radius of generalised-α at infinity, in [0, 1]; 0.7 if not given.
+    /// Spectral radius of generalised-α at infinity, from 0 to less than 1; 0.7 if not given.
     pub spectral_radius: Option<Quantity>,
     /// Time between rows of the trajectory \[s\]; every step if not given.
     pub every: Option<Quantity>,

@@ -66,8 +66,12 @@ pub(crate) fn run_settings(run: &RunSection, variables: &Variables) -> Result<Ru
     check(run)?;
     let spectral_radius =
         run.spectral_radius.as_ref().map_or(Ok(SPECTRAL_RADIUS), |r| variables.number(r))?;
-    if let (Some(given), false) = (&run.spectral_radius, (0.0..=1.0).contains(&spectral_radius)) {
-        return Err(ReadError::new("the spectral radius lies between 0 and 1").at(&given.span));
+    if let (Some(given), false) = (&run.spectral_radius, (0.0..1.0).contains(&spectral_radius)) {
+        let message =
+            format!("the spectral radius is {spectral_radius}; it must be at least 0 and less than 1");
+        let help =
+            "1 would damp nothing, and is not stable with constraints; scheme = \"symplectic\" damps nothing";
+        return Err(ReadError::new(message).at(&given.span).help(help));
     }
     let mut settings = RunSettings::new(positive(&run.duration)?);
     if let Some(channels) = &run.channels {

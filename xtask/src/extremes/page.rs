@@ -10,7 +10,7 @@ const HEAD: &str = "# Limits
 
 Where the library was taken to its extremes, what holds there, what is refused and with which message. Every answer is
 compared with something that does not share its code; *right* means within the limit given. What is not right must be
-refused by a typed error: nothing here is wrong in silence, panics, or does not end.
+refused by a typed error, or *told* by a number of its report: nothing here is wrong in silence, panics, or does not end.
 
 ```console
 $ cargo xtask extremes            # --axis WORD for some of it, --quick without what takes long, --write to renew this page
@@ -51,6 +51,7 @@ fn row<'v>(at: &str, verdict: &'v Verdict, refusals: &mut Vec<&'v str>) -> Vec<S
     let (word, error, limit) = match verdict {
         Verdict::Right { error, limit } => ("right".to_string(), *error, *limit),
         Verdict::Wrong { error, limit } => ("WRONG".to_string(), *error, *limit),
+        Verdict::Told { error, limit, words } => (format!("told ({})", note(words)), *error, *limit),
         Verdict::Refused(words) => (format!("refused ({})", note(words)), f64::NAN, f64::NAN),
         Verdict::Panicked(words) => (format!("PANIC ({})", note(words)), f64::NAN, f64::NAN),
         Verdict::Endless => ("ENDLESS".to_string(), f64::NAN, f64::NAN),

@@ -9,10 +9,15 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
+use tg_integrate::Turning;
+
 /// Time for one question.
 const PATIENCE: Duration = Duration::from_secs(600);
 /// Time for a cancelled question to come back.
 const GRACE: Duration = Duration::from_secs(5);
+
+/// Angle by which the acceleration may turn in a step of a second-order scheme for a hundredth of error in a radian \[rad\].
+const RESOLVED: f64 = 0.3;
 
 /// What came of a question.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +26,8 @@ pub(crate) enum Verdict {
     Right { error: f64, limit: f64 },
     /// A typed error, in its words.
     Refused(String),
+    /// An answer that is not right, and its report says so, in these words.
+    Told { error: f64, limit: f64, words: String },
     /// An answer that is not right, and nothing said so.
     Wrong { error: f64, limit: f64 },
     /// A panic, in its words.
@@ -43,9 +50,20 @@ impl Verdict {
         }
     }
 
-    /// Right or refused.
+    /// As [`Verdict::of`] for a motion that was watched by [`Turning`], which tells that steps are too long.
+    pub(crate) fn of_motion<E: Display>(answer: Result<(f64, Turning), E>, limit: f64) -> Self {
+        match answer {
+            Ok((error, turning)) if error > limit && turning.angle() > RESOLVED => {
+                let words = format!("`Turning`: the acceleration turns by more than {RESOLVED} rad a step");
+                Self::Told { error, limit, words }
+            }
+            answer => Self::of(answer.map(|(error, _)| error), limit),
+        }
+    }
+
+    /// Right, told or refused.
     pub(crate) fn holds(&self) -> bool {
-        matches!(self, Self::Right { .. } | Self::Refused(_))
+        matches!(self, Self::Right { .. } | Self::Told { .. } | Self::Refused(_))
     }
 }
 

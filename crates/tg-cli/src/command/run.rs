@@ -8,7 +8,7 @@ mod recording;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use tg_integrate::Run as Integration;
+use tg_integrate::{Run as Integration, Turning};
 use tg_report::{Existing, Formats, Kind, Manifest, Results, ResultsWriter, write_glb, write_vtk};
 use tg_scene::{Format, RunSettings, Structure};
 use tg_trade::{Choice, Method};
@@ -108,13 +108,15 @@ fn simulate<const D: usize>(
         (state.map_err(Failure::analysis)?, writer)
     };
     let mut recording = Recording::new(writer, channels, &painter, settings, (method, resumed));
+    let mut turning = Turning::default();
     let outcome = Integration::new(method.step, settings.duration)
         .observe(&mut recording)
+        .observe(&mut turning)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
     let (summary, why) = ended(outcome);
     let mut warnings = remarks(structure);
-    warnings.extend(doubts(&summary, &method));
+    warnings.extend(doubts(&summary, &turning, &method));
     let mut counts = counts(&summary, &state);
     counts["estimated_error"] = json!(choice.as_ref().map(|choice| choice.error));
     recording.finish(&state, &counts, &warnings, why.clone())?;

@@ -26,6 +26,8 @@ impl Symplectic<'_> {
     /// contradicts the law.
     pub(super) fn advance(&mut self, state: &mut State, h: f64, last: bool) -> Result<Converged, Failed> {
         self.predict(state, h);
+        let Work { q_end, v_end, .. } = &self.work;
+        self.supports.check(state, q_end, v_end, h).map_err(|jump| self.failed(jump, 0, 0.0))?;
         let resolution = 4.0 * f64::EPSILON * largest(&state.q);
         let mut has_factors = self.recall(state, h);
         let (mut frozen, mut iterations, mut factored) = (false, 0, 0);

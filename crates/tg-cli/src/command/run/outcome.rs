@@ -1,8 +1,11 @@
 //! What a run counts, and what makes its result doubtful.
 
 use serde_json::{Value, json};
-use tg_integrate::{Ended, RunError, State, Summary};
+use tg_integrate::{Ended, RunError, State, Summary, Turning};
 use tg_trade::Method;
+
+/// Angle by which the acceleration may turn in a step before the result is doubtful \[rad\].
+const RESOLVED: f64 = 1.0;
 
 /// The totals of a run, and why it did not come to its end.
 pub(crate) fn ended(outcome: Result<Summary, RunError>) -> (Summary, Option<String>) {
@@ -29,7 +32,7 @@ pub(super) fn counts(summary: &Summary, state: &State) -> Value {
 }
 
 /// What makes the result doubtful.
-pub(crate) fn doubts(summary: &Summary, method: &Method) -> Vec<String> {
+pub(crate) fn doubts(summary: &Summary, turning: &Turning, method: &Method) -> Vec<String> {
     let mut doubts = Vec::new();
     // Under error control steps are divided as a rule, and a switch that is passed over is all that can go wrong.
     let controlled = method.tolerance.is_some();
@@ -50,6 +53,13 @@ pub(crate) fn doubts(summary: &Summary, method: &Method) -> Vec<String> {
         doubts.push(format!(
             "{} of {} steps had to be divided; choose a smaller step",
             summary.divided, summary.steps
+        ));
+    }
+    if turning.angle() > RESOLVED && !controlled {
+        doubts.push(format!(
+            "the acceleration turns by {:.1} rad in a step: the steps do not resolve the motion; choose a step ten times \
+             smaller, or --accuracy",
+            turning.angle()
         ));
     }
     doubts

@@ -290,6 +290,13 @@ wrong!(
     "keep one"
 );
 wrong!(
+    spectral_radius_of_one, Toml,
+    "step = 0.01" => "step = 0.01, scheme = \"generalized-alpha\", spectral_radius = 1",
+    16:84,
+    "the spectral radius is 1; it must be at least 0 and less than 1",
+    "1 would damp nothing"
+);
+wrong!(
     unknown_scheme, Toml,
     "step = 0.01" => "step = 0.01, scheme = \"runge-kutta\"",
     16:45,

@@ -1,7 +1,7 @@
 //! What the motion at one value of the parameter comes to.
 
 use serde::Serialize;
-use tg_integrate::Run as Integration;
+use tg_integrate::{Run as Integration, Turning};
 use tg_scene::{RunSettings, Structure};
 use tg_trade::Method;
 
@@ -104,8 +104,10 @@ fn simulate<const D: usize>(
     let start = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
     let mut state = start.map_err(Failure::analysis)?;
     let mut extremes = Extremes::new(structure).map_err(Failure::analysis)?;
+    let mut turning = Turning::default();
     let outcome = Integration::new(method.step, settings.duration)
         .observe(&mut extremes)
+        .observe(&mut turning)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
     let (summary, failure) = ended(outcome);
@@ -119,5 +121,5 @@ fn simulate<const D: usize>(
         largest_displacement: extremes.largest_displacement(),
         energy_at_end: model.energy(&state.q, &state.v, &model.inputs_at(state.t)).total(),
     };
-    Ok((seen, failure, doubts(&summary, &method)))
+    Ok((seen, failure, doubts(&summary, &turning, &method)))
 }
