@@ -4,7 +4,7 @@
 //! err = √( (1/2n) Σ (e_i / (absolute · S + relative · min(max(|y_i|, |ŷ_i|), S)))² ),   S = L for coordinates
 //! h_{n+1} = h_n · 0.9 · err_n^(-1/p + 0.75 β) · err_{n-1}^β,   β = 0.2/p                     S = V for velocities
 //! ```
-//! L is the size of the structure and V its speed: the largest velocity at hand, or √(f L/m) if that is more, which the largest
+//! L is the size of the structure and V its speed: the largest velocity so far, or √(f L/m) if that is more, which the largest
 //! force f at the start gives the whole mass m over the distance L. So a tolerance means the same for a structure in
 //! millimetres and in kilometres, near the origin and far from it.
 //!

@@ -117,12 +117,14 @@ impl<'m> IndexOne<'m> {
         self.unknowns
     }
 
-    /// √(f L/m) where the equations are placed: the speed that the largest force gives the whole mass over the structure's size.
+    /// The largest velocity where the equations are placed, or √(f L/m) if that is more: the speed that the largest force gives
+    /// the whole mass over the structure's size.
     pub(crate) fn speed(&self) -> f64 {
         let at = At { q: &self.q, v: &self.v, u: &self.inputs, taut: None };
         let mass: f64 = self.mechanics.mass().iter().filter(|e| e.row == e.col).map(|e| e.value).sum();
         let speed = (self.mechanics.force_scale(at) * self.mechanics.size() / mass).sqrt();
-        if speed.is_finite() { speed } else { 0.0 }
+        let least = if speed.is_finite() { speed } else { 0.0 };
+        self.v.iter().fold(least, |largest, v| largest.max(v.abs()))
     }
 
     /// λ of the last solution.

@@ -63,8 +63,8 @@ impl EmbeddedPair {
 /// of the accelerations (one factorisation each), `substeps` the accepted substeps, `rejected` those that were made
 /// again, `frozen` those that end at a switch, `forced` switches that were passed over. The multipliers of a state are those
 /// at its time. Under error control substeps also end where the velocity of a support jumps that carries mass or a joint; with fixed
-/// steps, let them end there, or the order is lost. The memory of a state is: substep, error, speed at the start, accelerations of
-/// the free components.
+/// steps, let them end there, or the order is lost. The memory of a state is: substep, error, largest velocity so far,
+/// accelerations of the free components.
 ///
 /// ```
 /// use tg_integrate::{EmbeddedPair, Run, RungeKutta, Stepper, Tolerances};
@@ -306,7 +306,7 @@ impl Stepper for RungeKutta<'_> {
         substep.equations.place(t, &substep.start);
         substep.rates[..n].copy_from_slice(&substep.start[n..]);
         substep.rates[n..2 * n].copy_from_slice(&state.memory[HEAD..]);
-        substep.first_speed = state.memory[2];
+        substep.fastest = state.memory[2];
         let mut report = StepReport::default();
         let mut controller = Controller::new(state.memory[0], state.memory[1]);
         let done = match substep.tolerances {
@@ -325,6 +325,7 @@ impl Stepper for RungeKutta<'_> {
         state.v.copy_from_slice(&substep.equations.v);
         state.lambda.copy_from_slice(&substep.lambda);
         (state.memory[0], state.memory[1]) = (controller.proposal, controller.last_error);
+        state.memory[2] = substep.fastest;
         state.memory[HEAD..].copy_from_slice(&substep.rates[n..2 * n]);
         report.fallbacks = (substep.equations.fallbacks() - fallbacks) as u32;
         Ok(report)

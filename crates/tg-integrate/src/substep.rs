@@ -27,8 +27,8 @@ pub(crate) struct Substep<'m> {
     pub(crate) tableau: &'static Tableau,
     /// None: no error estimate, and the laws decide at each stage.
     pub(crate) tolerances: Option<Tolerances>,
-    /// Least speed that velocities are held against \[m/s\].
-    pub(crate) first_speed: f64,
+    /// Largest velocity so far, or the speed that forces could give at the start \[m/s\].
+    pub(crate) fastest: f64,
     pub(crate) equations: IndexOne<'m>,
     pub(crate) start: Vec<f64>,
     pub(crate) stage: Vec<f64>,
@@ -57,7 +57,7 @@ impl<'m> Substep<'m> {
         Self {
             tableau,
             tolerances,
-            first_speed: 0.0,
+            fastest: 0.0,
             equations,
             start: packed(),
             stage: packed(),
@@ -150,6 +150,7 @@ impl<'m> Substep<'m> {
             self.lambda.copy_from_slice(self.equations.multipliers());
         }
         self.start.copy_from_slice(&self.end);
+        self.fastest = self.speed_with(&self.start);
         self.rates.copy_within(last.., 0);
         self.rates[..n].copy_from_slice(&self.end[n..]);
         Ok(Projected::Done)
@@ -202,23 +203,23 @@ impl<'m> Substep<'m> {
         (error / (first.len() as f64).sqrt(), self.coordinate(worst))
     }
 
-    /// V of the substep.
+    /// V of the substep. Where nothing has moved and no force acts, any.
     pub(crate) fn speed(&self) -> f64 {
-        self.speed_at(&self.start).max(self.speed_at(&self.end))
+        self.speed_with(&self.end).max(f64::MIN_POSITIVE)
     }
 
-    /// V at a packed state: the largest velocity, no less than the first speed. Where nothing moves and no force acts, any.
-    fn speed_at(&self, packed: &[f64]) -> f64 {
-        let velocities = &packed[self.jump.len()..];
-        let speed = velocities.iter().fold(self.first_speed, |largest, v| largest.max(v.abs()));
-        if speed > 0.0 { speed } else { f64::MIN_POSITIVE }
+    /// The largest velocity so far, at a packed state, and where the equations are placed, supports included.
+    fn speed_with(&self, packed: &[f64]) -> f64 {
+        let supports = self.equations.v.iter();
+        packed[self.jump.len()..].iter().chain(supports).fold(self.fastest, |largest, v| largest.max(v.abs()))
     }
 
     /// A first substep: it changes the state by a hundredth of its size, both scaled by the tolerances (Hairer, Nørsett,
     /// Wanner, Sec. II.4).
     pub(crate) fn first_length(&self, tolerances: &Tolerances) -> f64 {
         let (mut size, mut rate) = (0.0, 0.0);
-        let (length, speed) = (self.equations.mechanics.size(), self.speed_at(&self.start));
+        let (length, speed) =
+            (self.equations.mechanics.size(), self.speed_with(&self.start).max(f64::MIN_POSITIVE));
         for (i, (y, k)) in self.start.iter().zip(&self.rates).enumerate() {
             let scale = tolerances.scale(*y, *y, if i < self.jump.len() { length } else { speed });
             size += (y / scale).powi(2);
