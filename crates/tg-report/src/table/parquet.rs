@@ -2,7 +2,6 @@
 //! metadata of the file.
 
 use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -17,6 +16,7 @@ use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use crate::error::ReportError;
+use crate::folder::write_file;
 use crate::table::{Channel, Table};
 
 /// Key of the channels, as JSON, in the metadata of a file.
@@ -29,12 +29,14 @@ impl Table {
     /// # Errors
     /// The file cannot be written, or the table is ill-formed.
     pub fn write_parquet(&self, path: &Path) -> Result<(), ReportError> {
+        write_file(path, &self.parquet(path)?)
+    }
+
+    /// The content of a Parquet file; `path` is for errors.
+    pub(crate) fn parquet(&self, path: &Path) -> Result<Vec<u8>, ReportError> {
         self.check()?;
-        let file = File::create(path).map_err(ReportError::io("write", path))?;
         let channels = serde_json::to_string(&self.channels).map_err(ReportError::json(path))?;
-        let file = write(self, BufWriter::new(file), channels);
-        let file = file.map_err(|e| ReportError::damaged(path, e))?;
-        file.sync_all().map_err(ReportError::io("write", path))
+        write(self, channels).map_err(|e| ReportError::damaged(path, e))
     }
 
     /// Reads a Parquet file of float64 columns.
@@ -55,7 +57,7 @@ impl Table {
     }
 }
 
-fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File, ParquetError> {
+fn write(table: &Table, channels: String) -> Result<Vec<u8>, ParquetError> {
     let column = |c: &Channel| {
         let kind = Type::primitive_type_builder(&c.name, Physical::DOUBLE);
         kind.with_repetition(Repetition::REQUIRED).build().map(Arc::new)
@@ -70,7 +72,7 @@ fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File,
         .set_created_by(concat!("tg-report version ", env!("CARGO_PKG_VERSION")).into())
         .set_key_value_metadata(Some(vec![KeyValue::new(CHANNELS.into(), channels)]))
         .build();
-    let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
     let mut columns = table.columns.iter();
     while let Some(mut writer) = group.next_column()? {
@@ -79,8 +81,7 @@ fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File,
         writer.close()?;
     }
     group.close()?;
-    let file = writer.into_inner()?;
-    file.into_inner().map_err(|e| ParquetError::External(Box::new(e.into_error())))
+    writer.into_inner()
 }
 
 fn read(file: File) -> Result<(Table, Option<String>), ParquetError> {
