@@ -13,7 +13,8 @@ use crate::error::ReportError;
 use crate::table::{Channel, Table};
 
 const MAGIC: &[u8; 8] = b"TGJOURN2";
-const HEADER: usize = 20;
+/// Bytes of a journal without rows.
+pub(crate) const HEADER: usize = 20;
 
 /// The journal of a folder that is being written.
 pub(crate) struct Journal {

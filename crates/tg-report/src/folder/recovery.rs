@@ -24,31 +24,43 @@ pub(crate) fn recover(path: &Path, manifest: &Manifest) -> Result<usize, ReportE
     Ok(rows.rows())
 }
 
-/// The parts with the rows whose first channel is at most `time`, and the number of the next one. A part that is cut becomes
-/// another one, which the list does not know yet: the folder stays as it is until the list changes.
-pub(crate) fn parts_until(
-    path: &Path,
-    manifest: &Manifest,
-    time: f64,
-) -> Result<(Vec<Part>, u32), ReportError> {
-    recover(path, manifest)?;
-    let mut parts = parts::list(path)?;
-    let mut next = parts.iter().map(|part| part.part.saturating_add(1)).max().unwrap_or(0);
-    while let Some(last) = parts.pop() {
-        let mut table = parts::read(path, &last)?;
-        table.retain(|x| x <= time);
-        if table.rows() == last.rows {
-            parts.push(last);
+/// What a folder holds up to a time.
+#[derive(Default)]
+pub(crate) struct Until {
+    /// Parts; one that is cut becomes another one, which the list does not know yet: the folder stays as it is until the
+    /// list changes.
+    pub(crate) parts: Vec<Part>,
+    /// Number of the next one.
+    pub(crate) next: u32,
+    /// First channel of the last row.
+    pub(crate) last: Option<f64>,
+}
+
+impl Until {
+    /// The rows whose first channel is at most `time`.
+    pub(crate) fn of(path: &Path, manifest: &Manifest, time: f64) -> Result<Self, ReportError> {
+        recover(path, manifest)?;
+        let mut parts = parts::list(path)?;
+        let mut next = parts.iter().map(|part| part.part.saturating_add(1)).max().unwrap_or(0);
+        let mut last = None;
+        while let Some(part) = parts.pop() {
+            let mut table = parts::read(path, &part)?;
+            table.retain(|x| x <= time);
+            if table.rows() == 0 {
+                continue;
+            }
+            last = table.columns.first().and_then(|column| column.last()).copied();
+            if table.rows() == part.rows {
+                parts.push(part);
+            } else {
+                parts.push(parts::write(path, next, &table)?);
+                next = next.saturating_add(1);
+            }
             break;
         }
-        if table.rows() > 0 {
-            parts.push(parts::write(path, next, &table)?);
-            next = next.saturating_add(1);
-            break;
-        }
+        parts::check(path, &parts)?;
+        Ok(Self { parts, next, last })
     }
-    parts::check(path, &parts)?;
-    Ok((parts, next))
 }
 
 /// Refuses to go on where rows or frames are missing that the checkpoint has counted.
@@ -80,7 +92,7 @@ pub(crate) fn clear(path: &Path, existing: Existing) -> Result<(), ReportError> 
     let names = names.map_err(ReportError::io("read", path))?;
     if !names.iter().any(|name| name == "run.json") {
         // A program that was killed before it had computed anything leaves nothing else.
-        return match names.into_iter().find(|name| !BEGUN.contains(&name.as_str())) {
+        return match names.into_iter().find(|name| !is_begun(path, name)) {
             Some(found) => Err(ReportError::Foreign { path: path.to_owned(), found }),
             None => Ok(()),
         };
@@ -102,13 +114,14 @@ pub(crate) fn clear(path: &Path, existing: Existing) -> Result<(), ReportError> 
     [journal::path(path), frames::path(path)].iter().try_for_each(|file| files::remove(file))
 }
 
-/// Files that are there before the manifest.
-const BEGUN: [&str; 7] = [
-    "trajectory",
-    "parts.json",
-    "parts.json.new",
-    "journal.bin",
-    "frames.ndjson",
-    "frames.ndjson.new",
-    "run.json.new",
-];
+/// Whether a file is one of those that are there before the manifest, and as empty as then.
+fn is_begun(path: &Path, name: &str) -> bool {
+    let path = path.join(name);
+    let size = || fs::metadata(&path).map_or(u64::MAX, |about| about.len());
+    match name {
+        "trajectory" => fs::read_dir(&path).is_ok_and(|mut entries| entries.next().is_none()),
+        "journal.bin" => size() <= journal::HEADER as u64,
+        "frames.ndjson" => size() == 0,
+        _ => ["parts.json", "parts.json.new", "frames.ndjson.new", "run.json.new"].contains(&name),
+    }
+}

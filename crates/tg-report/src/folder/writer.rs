@@ -10,7 +10,8 @@ use crate::error::ReportError;
 use crate::folder::checkpoint::Checkpoint;
 use crate::folder::journal::{self, Journal};
 use crate::folder::parts::{self, Part};
-use crate::folder::{Manifest, document, files, frames, recovery};
+use crate::folder::recovery::{self, Until};
+use crate::folder::{Manifest, document, files, frames};
 use crate::frame::Frame;
 use crate::table::{CsvRows, NpyRows, Table, check_channels};
 
@@ -45,6 +46,8 @@ pub struct ResultsWriter {
     /// Number of the open part, and its rows.
     number: u32,
     part: Table,
+    /// First channel of the last row.
+    last: Option<f64>,
     since: Instant,
 }
 
@@ -71,7 +74,7 @@ impl ResultsWriter {
         manifest.frames = None;
         parts::write_list(path, &[])?;
         let frames = frames::Frames::start(path)?;
-        let writer = Self::at_part(path, manifest, formats, (Vec::new(), 0), frames)?;
+        let writer = Self::at_part(path, manifest, formats, Until::default(), frames)?;
         // Last: from now on it is a folder of results.
         writer.manifest.write(path)?;
         Ok(writer)
@@ -84,16 +87,17 @@ impl ResultsWriter {
     /// written.
     pub fn resume(path: &Path, formats: Formats, time: f64) -> Result<Self, ReportError> {
         let mut manifest = Manifest::read(path)?;
-        let (parts, next) = recovery::parts_until(path, &manifest, time)?;
+        let until = Until::of(path, &manifest, time)?;
         let mut frames = frames::read(path)?;
         frames.retain(|frame| frame.time <= time);
-        recovery::check(path, time, parts.iter().map(|part| part.rows).sum(), frames.len())?;
-        parts::keep(path, &parts)?;
+        let rows = until.parts.iter().map(|part| part.rows).sum();
+        recovery::check(path, time, rows, frames.len())?;
+        parts::keep(path, &until.parts)?;
         let frames = frames::Frames::go_on(path, &frames)?;
         manifest.complete = false;
         manifest.interrupted = None;
         manifest.frames = None;
-        let writer = Self::at_part(path, manifest, formats, (parts, next), frames)?;
+        let writer = Self::at_part(path, manifest, formats, until, frames)?;
         writer.manifest.write(path)?;
         Ok(writer)
     }
@@ -102,15 +106,16 @@ impl ResultsWriter {
         path: &Path,
         manifest: Manifest,
         formats: Formats,
-        (parts, number): (Vec<Part>, u32),
+        until: Until,
         frames: frames::Frames,
     ) -> Result<Self, ReportError> {
         Ok(Self {
             path: path.to_owned(),
-            journal: Journal::start(path, number, manifest.channels.len())?,
+            journal: Journal::start(path, until.next, manifest.channels.len())?,
             frames,
-            parts,
-            number,
+            parts: until.parts,
+            number: until.next,
+            last: until.last,
             part: Table::new(manifest.channels.clone()),
             since: Instant::now(),
             manifest,
@@ -135,6 +140,7 @@ impl ResultsWriter {
     pub fn row(&mut self, row: &[f64]) -> Result<(), ReportError> {
         self.part.push(row)?;
         self.journal.row(row)?;
+        self.last = row.first().copied();
         let full = self.part.rows() >= parts::most_rows(row.len());
         if full || self.since.elapsed() >= Duration::from_secs(parts::PART_SECONDS) {
             self.close_part()?;
@@ -174,9 +180,8 @@ impl ResultsWriter {
         self.journal.sync()?;
         self.frames.sync()?;
         let closed: usize = self.parts.iter().map(|part| part.rows).sum();
-        let last = self.part.columns.first().and_then(|column| column.last());
-        let (rows, frames, last) = (closed + self.part.rows(), self.frames.count, last.copied());
-        Checkpoint { rows, frames, last, value }.write(&self.path)
+        let (rows, frames) = (closed + self.part.rows(), self.frames.count);
+        Checkpoint { rows, frames, last: self.last, value }.write(&self.path)
     }
 
     /// Closes the last part, writes the other formats and the manifest. The manifest is complete unless `change`, which
