@@ -55,6 +55,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
             "tg-integrate",
             "tg-modal",
             "tg-model",
+            "tg-report",
             "tg-sparse",
             "tg-statics",
             "tg-tangent",
