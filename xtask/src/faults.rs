@@ -52,7 +52,7 @@ pub(crate) fn try_all(options: &Options) -> Result<bool, TaskError> {
     let mut random = Random(options.seed);
     eprintln!("undisturbed runs");
     let subjects = [Subject::new(&program, "plane", PLANE)?, Subject::new(&program, "space", SPACE)?];
-    let [plane, space] = &subjects;
+    let [plane, _] = &subjects;
     let mut kills = Vec::new();
     for (subject, share) in subjects.iter().zip([options.kills.div_ceil(2), options.kills / 2]) {
         eprintln!("{share} kills of {}", subject.arguments.join(" "));
@@ -61,7 +61,7 @@ pub(crate) fn try_all(options: &Options) -> Result<bool, TaskError> {
     let mut found = Found { kills, ..Found::default() };
     found.tell();
     eprintln!("what the system refuses");
-    found.system = system::trials(&program, space)?;
+    found.system = system::trials(&program, &subjects)?;
     found.tell();
     eprintln!("what vanishes");
     found.vanished = vanish::trials(&program, plane)?;

@@ -99,7 +99,8 @@ impl Program {
     /// Paths without the folders of this machine.
     pub(super) fn plain(&self, text: &str) -> String {
         let short = |path: &Path| format!("{}/", path.display());
-        text.replace(&short(&self.scratch), "").replace(&short(root()), "")
+        let text = text.replace(&short(&self.scratch), "").replace(&short(root()), "");
+        text.replace(&self.scratch.display().to_string(), "$AT")
     }
 }
 

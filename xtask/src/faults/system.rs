@@ -9,9 +9,10 @@ use super::trial::{Expected, Trial};
 use crate::TaskError;
 
 /// All of them.
-pub(super) fn trials(program: &Program, subject: &Subject) -> Result<Vec<Trial>, TaskError> {
-    let mut trials = vec![disk_full(program, subject)?, file_limit(program, subject)?];
-    trials.extend(streams(program, subject)?);
+pub(super) fn trials(program: &Program, [plane, space]: &[Subject; 2]) -> Result<Vec<Trial>, TaskError> {
+    let mut trials =
+        vec![disk_full(program, plane)?, disk_full(program, space)?, file_limit(program, space)?];
+    trials.extend(streams(program, space)?);
     trials.extend(folders(program)?);
     Ok(trials)
 }
@@ -23,18 +24,22 @@ fn arguments(subject: &Subject) -> String {
 /// File systems from one that takes nothing to one that takes all but the page: then room is made.
 fn disk_full(program: &Program, subject: &Subject) -> Result<Trial, TaskError> {
     let run = arguments(subject);
-    let sizes = "16 64 160 400 1000 2500 4000 5000 6000 6500 7000 7500 8000 9000 10000 12000 16000";
+    // Twice what is left in the end: a part and the journal that it is made of are there at the same time.
+    let parts = [0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.0, 1.1, 1.3, 1.5, 2.0];
+    let kibibytes = size(&subject.folder)? as f64 / 1024.0;
+    let sizes = parts.map(|part| format!("{:.0}", (part * kibibytes).max(16.0)));
+    let (sizes, half) = (sizes.join(" "), &sizes[6]);
     let script = format!(
-        "mkdir -p $AT/small && unshare -rm bash -c '
+        "rm -rf $AT/small $AT/full-* $AT/after-*; mkdir $AT/small; unshare -rm bash -c '
 for size in {sizes}; do
   mount -t tmpfs -o size=${{size}}k tmpfs $AT/small
   $TG {run} -o $AT/small/out 2>$AT/said-$size; echo $? >$AT/code-$size
   cp -r $AT/small/out $AT/full-$size
-  mount -o remount,size=64m $AT/small
+  mount -o remount,size=128m $AT/small
   $TG {run} -o $AT/small/out --resume 2>>$AT/said-$size; echo $? >>$AT/code-$size
   cp -r $AT/small/out $AT/after-$size
   umount $AT/small
-done'; cat $AT/said-1000 >&2; exit $(head -1 $AT/code-1000)"
+done'; cat $AT/said-{half} >&2; exit $(head -1 $AT/code-{half})"
     );
     let says = &["No space left on device", "make room", "--resume goes on"];
     let expected = Expected { fault: "the disk is full in the middle of a run", script, code: 1, says };
@@ -68,6 +73,17 @@ done'; cat $AT/said-1000 >&2; exit $(head -1 $AT/code-1000)"
             failed + whole
         ))
     })
+}
+
+/// Bytes of the files of a folder.
+fn size(folder: &Path) -> Result<u64, TaskError> {
+    let mut bytes = 0;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let about = entry.metadata()?;
+        bytes += if about.is_dir() { size(&entry.path())? } else { about.len() };
+    }
+    Ok(bytes)
 }
 
 /// A limit of file sizes: the system ends the program by a signal, unless that is ignored.
@@ -139,6 +155,13 @@ fn folders(program: &Program) -> Result<Vec<Trial>, TaskError> {
     let run = "run scenes/tower.toml --duration 0.1";
     let precious = program.scratch.join("notes.txt");
     fs::write(&precious, "precious")?;
+    let above = Expected {
+        fault: "no folder above the folder",
+        script: format!("$TG {run} -o $AT/no/such/folder"),
+        code: 0,
+        says: &[],
+    };
+    let above = above.try_out(program, |_| Ok("the folders are made".to_string()))?;
     let trial = |fault, script: String, code, says| {
         let expected = Expected { fault, script, code, says };
         expected.try_out(program, |_| match fs::read(&precious) {
@@ -154,6 +177,7 @@ fn folders(program: &Program) -> Result<Vec<Trial>, TaskError> {
     };
     let elsewhere: &[&str] = &["Read-only file system", "choose another place"];
     Ok(vec![
+        above,
         trial("a file where the folder should be", format!("$TG {run} -o $AT/notes.txt"), 2, &["notes.txt"])?,
         trial("a file above the folder", format!("$TG {run} -o $AT/notes.txt/out"), 2, &["notes.txt/out"])?,
         trial("files of someone else in the folder", format!("$TG {run} -o $AT --force"), 2, &[
@@ -164,7 +188,6 @@ fn folders(program: &Program) -> Result<Vec<Trial>, TaskError> {
         trial("results on it are to be replaced", read_only(&format!("$TG {run} -o $AT/fixed/there --force")), 2, elsewhere)?,
         trial("results on it are resumed", read_only(&format!("$TG {run} -o $AT/fixed/there --resume")), 2, elsewhere)?,
         trial("a page for it", read_only("$TG view $AT/fixed/there"), 2, elsewhere)?,
-        trial("no folder above the folder", format!("$TG {run} -o $AT/no/such/folder"), 0, &[])?,
         trial("no folder for a page", "$TG view scenes/tower.toml -o $AT/none/such.html".into(), 2, &["none/such.html", "missing"])?,
         trial("no folder for a scene", "$TG import $AT/nosuch.yaml".into(), 2, &["nosuch.yaml", "check the path"])?,
         trial(

@@ -86,7 +86,7 @@ fn before_looking(program: &Program, whole: &Path, file: &str) -> Result<Option<
     let (mut code, mut message, mut wrong) = (0, String::new(), Vec::new());
     let (mut refused, mut made) = (Vec::new(), Vec::new());
     for (look, name) in LOOKS {
-        let mut file_of = |folder: &Path| {
+        let file_of = |folder: &Path| {
             let (folder, file) = (folder.display().to_string(), program.free(name)?);
             let to = file.display().to_string();
             let outcome = program.run(&[look, &[&folder, "-o", &to]].concat())?;
@@ -161,6 +161,9 @@ fn while_it_runs(program: &Program, subject: &Subject, file: &str) -> Result<Tri
         0 => subject.same(&folder).map(|()| "written again; the results are complete".to_string()),
         _ => Ok("the message tells what is missing".to_string()),
     })?;
-    trial.command = format!("tg run ... -o out & rm -r out/{file}");
+    trial.command = format!(
+        "tg run ... -o out & rm -r {}",
+        if file == "." { "out".into() } else { format!("out/{file}") }
+    );
     Ok(trial)
 }

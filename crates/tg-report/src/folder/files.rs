@@ -118,6 +118,10 @@ pub(crate) fn vanished(path: &Path) -> ReportError {
     ReportError::damaged(path, "it has vanished; put it back, or begin anew")
 }
 
+/// What is said of a file whose checksum does not fit.
+pub(crate) const CHANGED: &str =
+    "it is not what was written: its checksum does not fit; take it from a copy, or begin anew";
+
 fn beside(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".new");

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use crate::checksum::crc32;
 use crate::error::ReportError;
+use crate::folder::files::CHANGED;
 use crate::table::{Channel, Table};
 
 const MAGIC: &[u8; 8] = b"TGJOURN2";
@@ -68,7 +69,10 @@ pub(crate) fn read(results: &Path, channels: &[Channel]) -> Result<Option<(u32, 
     let [_, _, _, _, _, _, _, _, a, b, c, d, ..] = *start;
     let number = u32::from_le_bytes([a, b, c, d]);
     if *start != header(number, channels.len()) {
-        return Err(ReportError::damaged(&path, "its header is not that of this folder's journal"));
+        return Err(ReportError::damaged(
+            &path,
+            "its header is not that of this folder's journal; take it from a copy, or begin anew",
+        ));
     }
     let mut table = Table::new(channels.to_vec());
     let size = 8 * channels.len();
@@ -82,8 +86,7 @@ pub(crate) fn read(results: &Path, channels: &[Channel]) -> Result<Option<(u32, 
                 }
             }
             (true, Some(k)) => {
-                let reason = format!("its row {k} is not what was written: its checksum does not fit");
-                return Err(ReportError::damaged(&path, reason));
+                return Err(ReportError::damaged(&path, format!("row {k}: {CHANGED}")));
             }
             (false, None) => torn = Some(k + 1),
             (false, Some(_)) => {}

@@ -96,7 +96,7 @@ pub(crate) fn read(results: &Path, part: &Part) -> Result<Table, ReportError> {
         Err(e) => return Err(ReportError::io("read", &path)(e)),
     };
     if crc32(&bytes) != part.checksum {
-        return Err(ReportError::damaged(&path, "it is not what was written: its checksum does not fit"));
+        return Err(ReportError::damaged(&path, files::CHANGED));
     }
     let table = Table::read_parquet(&path)?;
     if table.rows() != part.rows {

@@ -6,6 +6,7 @@ use serde::de::DeserializeOwned;
 use serde_json::error::Error;
 
 use crate::checksum::crc32;
+use crate::folder::files::CHANGED;
 
 const KEY: &[u8] = b"\"crc32\":";
 
@@ -22,7 +23,7 @@ pub(crate) fn seal_indented(value: &(impl Serialize + ?Sized)) -> Result<Vec<u8>
 /// Reads an object whose checksum fits.
 pub(crate) fn open<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     if fits(bytes) != Some(true) {
-        return Err("it is not what was written: its checksum does not fit".into());
+        return Err(CHANGED.into());
     }
     serde_json::from_slice(bytes).map_err(|error| error.to_string())
 }
