@@ -32,6 +32,13 @@ static FOLDERS: LazyLock<[PathBuf; 2]> = LazyLock::new(|| {
     let folders =
         ["sound", "damaged"].map(|name| above.join(format!("tg-fuzz-{name}-{}", std::process::id())));
     fill(&folders[0]).expect("a folder");
+    // The reader of Parquet may panic: its caller makes an error of it, where libFuzzer would end at once.
+    let ends = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !panic.location().is_some_and(|place| place.file().contains("/parquet-")) {
+            ends(panic);
+        }
+    }));
     folders
 });
 
@@ -45,7 +52,7 @@ fn fill(path: &Path) -> Result<(), ReportError> {
     manifest.outline = Some(outline);
     let formats = Formats::default();
     let mut writer = ResultsWriter::create(path, manifest, formats, Existing::Replace)?;
-    (0..5).try_for_each(|k| writer.row(&[f64::from(k), 1.0]))?;
+    (0..3).try_for_each(|k| writer.row(&[f64::from(k), 1.0]))?;
     for k in 0..2 {
         let mast = Placement::plane([0.0, 1.0], 0.1);
         let ends = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -54,7 +61,7 @@ fn fill(path: &Path) -> Result<(), ReportError> {
     }
     writer.finish(|manifest| manifest.interrupted = Some("now".into()))?;
     // Goes on: the part stays, the journal begins.
-    let mut writer = ResultsWriter::resume(path, formats, 2.5)?;
+    let mut writer = ResultsWriter::resume(path, formats, f64::INFINITY)?;
     (3..5).try_for_each(|k| writer.row(&[f64::from(k), 1.0]))?;
     writer.checkpoint(&serde_json::json!({ "t": 4.0 }))
 }

@@ -2,6 +2,7 @@
 //! metadata of the file.
 
 use std::fs::File;
+use std::panic::catch_unwind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,7 +10,7 @@ use parquet::basic::{Encoding, Repetition, Type as Physical};
 use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{ColumnChunkMetaData, KeyValue};
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
@@ -45,7 +46,10 @@ impl Table {
     /// The file cannot be read, or has columns of another type.
     pub fn read_parquet(path: &Path) -> Result<Self, ReportError> {
         let file = File::open(path).map_err(ReportError::io("read", path))?;
-        let (table, channels) = read(file).map_err(|e| ReportError::damaged(path, e))?;
+        // The reader of Parquet panics where what a damaged file says about itself contradicts itself.
+        let read = catch_unwind(|| read(file));
+        let read = read.map_err(|_| ReportError::damaged(path, "it contradicts itself"))?;
+        let (table, channels) = read.map_err(|e| ReportError::damaged(path, e))?;
         match channels {
             None => Ok(table),
             Some(json) => {
@@ -85,6 +89,7 @@ fn write(table: &Table, channels: String) -> Result<Vec<u8>, ParquetError> {
 }
 
 fn read(file: File) -> Result<(Table, Option<String>), ParquetError> {
+    let bytes = file.metadata()?.len();
     let reader = SerializedFileReader::new(file)?;
     let metadata = reader.metadata().file_metadata();
     let columns = metadata.schema_descr().columns();
@@ -98,6 +103,14 @@ fn read(file: File) -> Result<(Table, Option<String>), ParquetError> {
     let channels = pairs.and_then(|pairs| pairs.iter().find(|p| p.key == CHANNELS)?.value.clone());
     for k in 0..reader.num_row_groups() {
         let group = reader.get_row_group(k)?;
+        let outside = |column: &ColumnChunkMetaData| {
+            let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
+            let [start, size] = [start, column.compressed_size()].map(u64::try_from);
+            !matches!((start, size), (Ok(start), Ok(size)) if start.saturating_add(size) <= bytes)
+        };
+        if let Some(column) = group.metadata().columns().iter().find(|column| outside(column)) {
+            return Err(ParquetError::EOF(format!("column {} is not in the file", column.column_path())));
+        }
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         for (i, column) in table.columns.iter_mut().enumerate() {
             let expected = column.len() + rows;
