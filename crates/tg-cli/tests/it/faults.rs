@@ -61,7 +61,7 @@ fn killed_at_any_time_a_run_is_resumed_bit_for_bit() {
         assert!(resumed.status.success(), "{part}: {}", text(&resumed.stderr));
         assert!(content(&folder) == whole, "killed after {part} of the time");
     }
-    assert!(killed >= 5, "{killed}");
+    assert!(killed >= 3, "{killed}");
 }
 
 #[test]
