@@ -1,10 +1,11 @@
 //! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask cites`, `cargo xtask trade`,
-//! `cargo xtask extremes`, `cargo xtask bench`, `cargo xtask instructions`.
+//! `cargo xtask extremes`, `cargo xtask faults`, `cargo xtask bench`, `cargo xtask instructions`.
 
 mod bench;
 mod cites;
 mod defaults;
 mod extremes;
+mod faults;
 mod instructions;
 mod layers;
 mod paths;
@@ -54,6 +55,10 @@ enum Task {
     ///
     /// Exit code 1 if an answer is wrong in silence, panics or does not end.
     Extremes(extremes::Options),
+    /// Kill the program, fill its disk, take its files away and damage them: what was computed survives.
+    ///
+    /// Of the program `tg` beside this one: `cargo build --release -p tg-cli`. Exit code 1 if something does not hold.
+    Faults(faults::Options),
     /// Measure steps, analyses, memory, and error against time; compare with the floor program where there is one.
     Bench(bench::Options),
     /// Write the mast of N stages and its converged trajectory into target/bench, for the peers' scripts.
@@ -98,6 +103,7 @@ fn main() -> ExitCode {
         Task::Cites => cites::check(),
         Task::Trade(options) => trade::trade(&options),
         Task::Extremes(options) => extremes::follow(&options),
+        Task::Faults(options) => faults::try_all(&options),
         Task::Bench(options) => bench::bench(&options),
         Task::Mast { stages } => bench::mast(stages),
         Task::Curves(options) => bench::curves(&options),

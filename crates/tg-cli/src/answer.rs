@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::fmt;
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
 
 use serde_json::{Value, json};
@@ -87,14 +87,11 @@ pub(crate) fn give(result: Result<Answer, Failure>, as_json: bool) -> ExitCode {
             if let (Value::Object(map), false) = (&mut document, answer.warnings.is_empty()) {
                 map.insert("warnings".into(), json!(answer.warnings));
             }
-            print(&if as_json { pretty(&document) } else { answer.text });
-            match answer.failed {
-                None => ExitCode::SUCCESS,
-                Some(why) => {
-                    message(&format!("error: {why}"));
-                    ExitCode::from(1)
-                }
+            let printed = print(&if as_json { pretty(&document) } else { answer.text });
+            if let Some(why) = &answer.failed {
+                message(&format!("error: {why}"));
             }
+            if printed && answer.failed.is_none() { ExitCode::SUCCESS } else { ExitCode::from(1) }
         }
         Err(failure) => {
             let (kind, text, mut document, code) = describe(&failure);
@@ -134,14 +131,21 @@ pub(crate) fn pretty(document: &Value) -> String {
     serde_json::to_string_pretty(document).unwrap_or_default()
 }
 
-/// A reader that has gone away is no error of ours.
-fn print(text: &str) {
+/// Prints to stdout; false if that cannot take it, for want of room. A reader that has gone away is no error of ours.
+fn print(text: &str) -> bool {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes());
-    if !text.is_empty() && !text.ends_with('\n') {
-        let _ = out.write_all(b"\n");
+    let end = if text.is_empty() || text.ends_with('\n') { "" } else { "\n" };
+    let printed = out
+        .write_all(text.as_bytes())
+        .and_then(|()| out.write_all(end.as_bytes()))
+        .and_then(|()| out.flush());
+    match printed {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            message(&format!("error: the answer cannot be printed: {error}; send it elsewhere"));
+            false
+        }
+        _ => true,
     }
-    let _ = out.flush();
 }
 
 fn message(text: &str) {

@@ -246,9 +246,12 @@ pub(crate) struct Run {
     /// Replace earlier results in that folder.
     #[arg(long, conflicts_with = "resume")]
     pub(crate) force: bool,
-    /// Go on with an interrupted run in that folder.
+    /// Go on with an interrupted run in that folder; where nothing was computed yet, begin it.
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Time on the clock between checkpoints [s]: what a killed run computes again.
+    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = positive)]
+    pub(crate) checkpoint_every: f64,
     /// Simulated time [s].
     #[arg(long, value_name = "S", value_parser = positive)]
     pub(crate) duration: Option<f64>,

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use tg_report::{Existing, Formats, Kind, Manifest, Outline, Results, ResultsWriter, View};
+use tg_report::{Existing, Formats, Kind, Manifest, Outline, Results, ResultsWriter, View, write_file};
 
 use crate::answer::Failure;
 use crate::args::OutputArgs;
@@ -56,12 +56,7 @@ pub(crate) fn write(
 /// Writes the page of a results folder.
 pub(crate) fn write_view(folder: &Path, file: &Path) -> Result<(), Failure> {
     let html = View::of(&Results::open(folder)?)?.html()?;
-    write_file(file, html.as_bytes())
-}
-
-/// Writes a file.
-pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    std::fs::write(path, bytes).map_err(|error| Failure::Usage(format!("{}: {error}", path.display())))
+    Ok(write_file(file, html.as_bytes())?)
 }
 
 /// The sentence that tells where results are.

@@ -1,5 +1,6 @@
 //! What can go wrong with reports.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -8,7 +9,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// The operating system refuses.
-    #[error("cannot {action} {}: {source}", path.display())]
+    #[error("cannot {action} {}: {source}{}", path.display(), mend(source.kind()))]
     Io {
         /// What was tried: "read", "write", ...
         action: &'static str,
@@ -127,5 +128,20 @@ impl ReportError {
     /// A data file that is not what it should be.
     pub(crate) fn damaged(path: &Path, reason: impl ToString) -> Self {
         Self::Damaged { path: path.to_owned(), reason: reason.to_string() }
+    }
+}
+
+/// What would mend a refusal of the operating system.
+fn mend(kind: ErrorKind) -> &'static str {
+    match kind {
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "; make room, or choose another folder",
+        ErrorKind::FileTooLarge => "; raise the limit of file sizes, or choose another folder",
+        ErrorKind::NotFound => "; it or a folder above it is missing",
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "; choose another place, or allow it there"
+        }
+        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => "; a file is where a folder should be",
+        ErrorKind::IsADirectory => "; a folder is where a file should be",
+        _ => "",
     }
 }

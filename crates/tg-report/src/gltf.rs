@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::colour::{Colour, SERIES};
 use crate::error::ReportError;
+use crate::folder::write_file;
 use crate::frame::Frame;
 use crate::outline::{MemberKind, Outline};
 use crate::vector::{bounds, norm, shortest, sub, unit};
@@ -25,7 +26,7 @@ use motion::Track;
 /// # Errors
 /// There is no frame, one does not fit the outline, or the file cannot be written.
 pub fn write_glb(path: &Path, outline: &Outline, frames: &[Frame]) -> Result<(), ReportError> {
-    std::fs::write(path, glb(outline, frames)?).map_err(ReportError::io("write", path))
+    write_file(path, &glb(outline, frames)?)
 }
 
 /// The content of a `.glb` file. Frames with a number that is not finite, and those not later than the one before, are

@@ -27,10 +27,10 @@
 //!
 //! let results = Results::open(&path)?;
 //! assert_eq!(results.table()?.column("guy.tension").map(|t| t[99]), Some(50.99));
-//! std::fs::write(path.join("view.html"), View::of(&results)?.html()?)?;
+//! write_file(&path.join("view.html"), View::of(&results)?.html()?.as_bytes())?;
 //! let (outline, frames) = (results.manifest.outline.clone().unwrap_or(Outline::new(2)), results.frames()?);
-//! std::fs::write(path.join("end.svg"), svg(&outline, &frames[99], &Picture::default())?)?;
-//! std::fs::write(path.join("tension.png"), Plot::standard(&results.table()?)[0].png([900.0, 480.0], 2.0)?)?;
+//! write_file(&path.join("end.svg"), svg(&outline, &frames[99], &Picture::default())?.as_bytes())?;
+//! write_file(&path.join("tension.png"), &Plot::standard(&results.table()?)[0].png([900.0, 480.0], 2.0)?)?;
 //! write_glb(&path.join("motion.glb"), &outline, &frames)?; // Blender, slides, browsers
 //! write_vtk(&path.join("motion.pvd"), &outline, &frames)?; // ParaView
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -60,6 +60,7 @@
 //! `LICENSE-DejaVu` goes with them.
 
 mod canvas;
+mod checksum;
 mod colour;
 mod error;
 mod folder;
@@ -77,6 +78,7 @@ mod vtk;
 pub use error::ReportError;
 pub use folder::{
     Existing, Formats, Kind, Manifest, PART_ROWS, PART_SECONDS, PART_VALUES, Results, ResultsWriter, Scene,
+    write_file,
 };
 pub use frame::{CableFrame, Frame, ModeSet, ModeShape, Placement, Shape};
 pub use gltf::{glb, write_glb};

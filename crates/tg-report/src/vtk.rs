@@ -7,6 +7,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
 use crate::error::ReportError;
+use crate::folder::write_file;
 use crate::frame::Frame;
 use crate::outline::{MemberKind, Outline};
 use crate::view::escaped;
@@ -33,7 +34,7 @@ pub fn write_vtk(path: &Path, outline: &Outline, frames: &[Frame]) -> Result<(),
     let mut list = String::new();
     for (k, frame) in frames.iter().enumerate() {
         let file = folder.join(format!("{k:05}.vtp"));
-        std::fs::write(&file, poly_data(outline, frame)).map_err(ReportError::io("write", &file))?;
+        write_file(&file, poly_data(outline, frame).as_bytes())?;
         let time = frame.time;
         let name = escaped(&name);
         let _ = writeln!(
@@ -45,7 +46,7 @@ pub fn write_vtk(path: &Path, outline: &Outline, frames: &[Frame]) -> Result<(),
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  \
          <Collection>\n{list}  </Collection>\n</VTKFile>\n"
     );
-    std::fs::write(path, pvd).map_err(ReportError::io("write", path))
+    write_file(path, pvd.as_bytes())
 }
 
 /// Cells of one kind, as VTK wants them.

@@ -2,10 +2,10 @@
 
 use clap::CommandFactory;
 use serde_json::json;
+use tg_report::write_file;
 
 use crate::answer::{Answer, Failure};
 use crate::args::{Arguments, Completions, Man, Schema};
-use crate::results::write_file;
 
 pub(crate) fn schema(arguments: &Schema) -> Result<Answer, Failure> {
     let schema = tg_scene::schema();

@@ -1,11 +1,11 @@
 //! `tg import`: files of other programs into scenes.
 
 use serde_json::json;
+use tg_report::write_file;
 use tg_scene::{ImportError, ImportOptions, SceneError, import_with};
 
 use crate::answer::{Answer, Failure};
 use crate::args::Import;
-use crate::results::write_file;
 
 pub(crate) fn import(arguments: &Import) -> Result<Answer, Failure> {
     let options = ImportOptions {

@@ -1,13 +1,15 @@
 //! `tg run`: the motion of a scene, streamed into a results folder.
 
 mod channels;
+mod checkpoint;
 mod method;
 mod outcome;
 mod recording;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use serde_json::{Value, json};
+use serde_json::json;
 use tg_integrate::{Run as Integration, Turning};
 use tg_report::{Existing, Formats, Kind, Manifest, Results, ResultsWriter, write_glb, write_vtk};
 use tg_scene::{Format, RunSettings, Structure};
@@ -19,10 +21,11 @@ use crate::args::Run;
 use crate::loading::{Loaded, remarks, stem};
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, watch_for_interrupts};
-use crate::results::{hash, manifest, set, told, write_view};
+use crate::results::{manifest, told, write_view};
 use channels::Channels;
+use checkpoint::Earlier;
 use outcome::counts;
-use recording::{Checkpoint, Recording};
+use recording::Recording;
 
 pub(crate) use method::method;
 pub(crate) use outcome::{doubts, ended};
@@ -89,41 +92,55 @@ fn simulate<const D: usize>(
     };
     let painter = Painter::new(structure)?;
     let channels = Channels::new(structure, settings)?;
-    let earlier = arguments.resume.then(|| checkpoint(loaded, &folder, arguments)).transpose()?;
-    let resumed = earlier.as_ref().map(|earlier| earlier.state.t);
+    let mut warnings = Vec::new();
+    let mut existing = if arguments.force { Existing::Replace } else { Existing::Keep };
+    let mut earlier = None;
+    if arguments.resume {
+        match Earlier::find(loaded, structure, &folder, arguments)? {
+            Earlier::At(checkpoint) => earlier = Some(*checkpoint),
+            Earlier::Nothing { folder: begun } => {
+                let folder = folder.display();
+                warnings.push(format!("{folder}: there was nothing to go on with; the run was begun anew"));
+                existing = if begun { Existing::Replace } else { Existing::Keep };
+            }
+        }
+    }
     let (method, choice) = match &earlier {
         Some(earlier) => (earlier.method, None),
         None => method(structure, settings)?,
     };
     let model = &structure.model;
     let mut stepper = method.stepper(model).map_err(Failure::analysis)?;
-    let (mut state, writer) = if let Some(Checkpoint { state, .. }) = earlier {
-        let writer = ResultsWriter::resume(&folder, formats, state.t)?;
-        (state, writer)
+    let before = earlier.as_ref().map(|earlier| (earlier.state.t, earlier.totals));
+    let (mut state, writer) = if let Some(earlier) = earlier {
+        let writer = ResultsWriter::resume(&folder, formats, earlier.state.t)?;
+        (earlier.state, writer)
     } else {
         let manifest = describe(loaded, settings, &method, choice.as_ref(), &channels, &painter);
-        let existing = if arguments.force { Existing::Replace } else { Existing::Keep };
         let writer = ResultsWriter::create(&folder, manifest, formats, existing)?;
         let state = stepper.start(0.0, &model.initial_coordinates(), &structure.velocities);
         (state.map_err(Failure::analysis)?, writer)
     };
-    let mut recording = Recording::new(writer, channels, &painter, settings, (method, resumed));
     let mut turning = Turning::default();
+    // A very long time is none that a clock can tell.
+    let between = Duration::try_from_secs_f64(arguments.checkpoint_every).unwrap_or(Duration::MAX);
+    let mut recording = Recording::new(writer, channels, &painter, (settings, between), method, before);
     let outcome = Integration::new(method.step, settings.duration)
         .observe(&mut recording)
         .observe(&mut turning)
         .cancel_on(&INTERRUPTED)
         .go(stepper.as_mut(), &mut state);
     let (summary, why) = ended(outcome);
-    let mut warnings = remarks(structure);
+    let summary = recording.totals(summary);
+    warnings.extend(remarks(structure));
     warnings.extend(doubts(&summary, &turning, &method));
     let mut counts = counts(&summary, &state);
     counts["estimated_error"] = json!(choice.as_ref().map(|choice| choice.error));
     recording.finish(&state, &counts, &warnings, why.clone())?;
-    other_formats(&folder, settings)?;
-    if !arguments.no_view {
-        write_view(&folder, &folder.join("view.html"))?;
-    }
+    pictures(&folder, settings, arguments).map_err(|failure| {
+        let folder = folder.display();
+        Failure::analysis(format!("{failure}; the results are complete, `tg view {folder}` makes their page"))
+    })?;
     let document = json!({
         "scene": loaded.file.name,
         "results": folder,
@@ -171,28 +188,10 @@ fn describe<const D: usize>(
     manifest
 }
 
-/// What to go on with.
-fn checkpoint(loaded: &Loaded, folder: &Path, arguments: &Run) -> Result<Checkpoint, Failure> {
-    let results = Results::open(folder)?;
-    let earlier = results.manifest.scene.as_ref().map(|scene| scene.hash.as_str());
-    let earlier_set = results.manifest.settings.get("set").unwrap_or(&Value::Null);
-    let refuse = |why: String| Err(Failure::Usage(format!("{}: {why}", folder.display())));
-    if earlier != Some(hash(loaded).as_str()) || *earlier_set != set(loaded) {
-        return refuse(
-            "these results are of another scene or other parameters, or it has changed since".into(),
-        );
-    }
-    let Some(checkpoint): Option<Checkpoint> = results.checkpoint()? else {
-        return refuse("there is no checkpoint to go on from; use --force".into());
-    };
-    let Method { scheme, tolerance, .. } = checkpoint.method;
-    if arguments.scheme.is_some_and(|given| given != scheme) {
-        return refuse(format!("this run was begun with the scheme {scheme}; go on with it, or use --force"));
-    }
-    if arguments.tolerance.is_some() && arguments.tolerance != tolerance {
-        return refuse("this run was begun with another tolerance; go on with it, or use --force".into());
-    }
-    Ok(checkpoint)
+/// What is made of the results: the page, and the formats with pictures.
+fn pictures(folder: &Path, settings: &RunSettings, arguments: &Run) -> Result<(), Failure> {
+    other_formats(folder, settings)?;
+    if arguments.no_view { Ok(()) } else { write_view(folder, &folder.join("view.html")) }
 }
 
 fn other_formats(folder: &Path, settings: &RunSettings) -> Result<(), Failure> {

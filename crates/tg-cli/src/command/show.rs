@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use tg_report::{
-    Kind, Picture, Plot, Projection, Results, Shape, View, evenly, strip_png, strip_svg, write_glb, write_vtk,
+    Kind, Picture, Plot, Projection, Results, Shape, View, evenly, strip_png, strip_svg, write_file,
+    write_glb, write_vtk,
 };
 
 use super::with_structure;
@@ -12,7 +13,7 @@ use crate::answer::{Answer, Failure};
 use crate::args::{self, ExportForm, PlotWhat};
 use crate::loading::Loaded;
 use crate::picture::Painter;
-use crate::results::{write_file, write_view};
+use crate::results::write_view;
 
 /// Size of plots \[px\].
 const SIZE: [f64; 2] = [960.0, 540.0];

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
 mod failures;
+mod faults;
 mod generated;
 mod interrupted;
 mod numbers;

@@ -2,6 +2,7 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
+use crate::checksum::crc32;
 use crate::error::ReportError;
 
 const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -37,14 +38,7 @@ fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], data: &[u8]) -> Option<()> {
     let start = file.len();
     file.extend(kind);
     file.extend(data);
-    let check = crc(&file[start..]);
+    let check = crc32(&file[start..]);
     file.extend(check.to_be_bytes());
     Some(())
-}
-
-/// The format's cyclic redundancy check, polynomial 0xedb88320.
-fn crc(bytes: &[u8]) -> u32 {
-    let step = |crc: u32| (crc >> 1) ^ if crc & 1 == 1 { 0xedb8_8320 } else { 0 };
-    let table: [u32; 256] = std::array::from_fn(|n| (0..8).fold(n as u32, |crc, _| step(crc)));
-    !bytes.iter().fold(!0, |crc, &byte| table[((crc ^ u32::from(byte)) & 0xff) as usize] ^ (crc >> 8))
 }

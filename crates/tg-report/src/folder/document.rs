@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::ReportError;
 
 /// Files of the folder itself.
-const TAKEN: [&str; 3] = ["run", "checkpoint", "trajectory"];
+const TAKEN: [&str; 4] = ["run", "checkpoint", "trajectory", "parts"];
 
 /// Where a document is.
 pub(crate) fn path(folder: &Path, name: &str) -> Result<PathBuf, ReportError> {

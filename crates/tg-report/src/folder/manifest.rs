@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::error::ReportError;
-use crate::folder::write_json;
+use crate::folder::{files, sealed};
 use crate::outline::Outline;
 use crate::table::Channel;
 
 const FORMAT: &str = "tensegrity-results";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The file `run.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,9 @@ pub struct Manifest {
     /// Names of the documents in the folder.
     #[serde(default)]
     pub documents: Vec<String>,
+    /// Number of frames, once the computation has ended.
+    #[serde(default)]
+    pub frames: Option<usize>,
     /// Columns of the table.
     #[serde(default)]
     pub channels: Vec<Channel>,
@@ -107,6 +110,7 @@ impl Manifest {
             complete: false,
             interrupted: None,
             documents: Vec::new(),
+            frames: None,
             channels: Vec::new(),
             outline: None,
         }
@@ -128,11 +132,22 @@ impl Manifest {
             let version = head.version.map_or("none".into(), |v| v.to_string());
             return Err(refuse(format!("its version is {version}; this program reads version {VERSION}")));
         }
+        if sealed::fits(&bytes) == Some(false) {
+            let reason =
+                "its checksum does not fit: it was damaged, or edited; if that was meant, take out `crc32`";
+            return Err(ReportError::damaged(&path, reason));
+        }
         serde_json::from_slice(&bytes).map_err(ReportError::json(&path))
     }
 
     pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
-        write_json(&Self::path(folder), self)
+        let path = Self::path(folder);
+        files::write_file(&path, &sealed::seal_indented(self).map_err(ReportError::json(&path))?)
+    }
+
+    /// Whether the computation has ended, by itself or by an orderly interrupt.
+    pub(crate) fn ended(&self) -> bool {
+        self.complete || self.interrupted.is_some()
     }
 }
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use crate::error::ReportError;
-use crate::folder::{Manifest, document, frames, journal, parts, writer};
+use crate::folder::checkpoint::Checkpoint;
+use crate::folder::{Manifest, document, files, frames, journal, parts, recovery};
 use crate::frame::{Frame, ModeSet, Shape};
 use crate::plot::Plot;
 use crate::table::Table;
@@ -36,21 +37,24 @@ impl Results {
         let mut table = Table::new(self.manifest.channels.clone());
         // The journal is read first: a part that is closed meanwhile then counts once.
         let rest = journal::read(&self.path, &table.channels)?;
-        let mut numbers = parts::list(&self.path)?;
-        if let Some((open, _)) = rest {
-            numbers.retain(|&n| n < open);
-        }
-        for number in numbers {
-            let part = parts::read(&self.path, number)?;
-            if part.channels != table.channels {
-                let path = parts::path(&self.path, number);
+        let parts = parts::list(&self.path)?;
+        for part in &parts {
+            let rows = parts::read(&self.path, part)?;
+            if rows.channels != table.channels {
+                let path = parts::path(&self.path, part.part);
                 return Err(ReportError::damaged(&path, "its columns are not the channels of run.json"));
             }
-            table.append(part)?;
+            table.append(rows)?;
         }
         match rest {
-            Some((_, rows)) => table.append(rows).map(|()| table),
-            None => Ok(table),
+            Some((open, rows)) if parts.iter().all(|part| part.part != open) => {
+                table.append(rows).map(|()| table)
+            }
+            // A run that ends while it is read takes its journal away last.
+            None if !journal::path(&self.path).exists() && !Manifest::read(&self.path)?.ended() => {
+                Err(files::vanished(&journal::path(&self.path)))
+            }
+            _ => Ok(table),
         }
     }
 
@@ -60,7 +64,7 @@ impl Results {
     /// # Errors
     /// A file cannot be read or written.
     pub fn recover(&self) -> Result<usize, ReportError> {
-        writer::recover(&self.path, &self.manifest)
+        recovery::recover(&self.path, &self.manifest)
     }
 
     /// All frames.
@@ -68,15 +72,31 @@ impl Results {
     /// # Errors
     /// The file cannot be read or is damaged before its last line.
     pub fn frames(&self) -> Result<Vec<Frame>, ReportError> {
-        frames::read(&self.path)
+        let frames = frames::read(&self.path)?;
+        match self.manifest.frames {
+            Some(count) if count != frames.len() => {
+                let reason =
+                    format!("{} frames are left of {count}; put it back, or begin anew", frames.len());
+                Err(ReportError::damaged(&frames::path(&self.path), reason))
+            }
+            _ => Ok(frames),
+        }
     }
 
     /// A document; none where there is no such one.
     ///
     /// # Errors
-    /// The name is no plain name, or the file cannot be read as this type.
+    /// The name is no plain name, or the file has vanished or cannot be read as this type.
     pub fn document<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, ReportError> {
-        read_json(&document::path(&self.path, name)?)
+        let path = document::path(&self.path, name)?;
+        match std::fs::read(&path) {
+            Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(ReportError::json(&path)),
+            Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(ReportError::io("read", &path)(e)),
+            Err(_) if self.manifest.documents.iter().any(|known| known == name) => {
+                Err(files::vanished(&path))
+            }
+            Err(_) => Ok(None),
+        }
     }
 
     /// The document `modes`.
@@ -106,16 +126,8 @@ impl Results {
     /// The checkpoint; none where there is none.
     ///
     /// # Errors
-    /// It cannot be read as this type.
+    /// It is damaged, or cannot be read as this type.
     pub fn checkpoint<T: DeserializeOwned>(&self) -> Result<Option<T>, ReportError> {
-        read_json(&writer::checkpoint_path(&self.path))
-    }
-}
-
-fn read_json<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, ReportError> {
-    match std::fs::read(path) {
-        Ok(bytes) => serde_json::from_slice(&bytes).map(Some).map_err(ReportError::json(path)),
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(e) => Err(ReportError::io("read", path)(e)),
+        Ok(Checkpoint::read(&self.path)?.map(|checkpoint| checkpoint.value))
     }
 }

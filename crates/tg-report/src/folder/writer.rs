@@ -7,8 +7,11 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::error::ReportError;
+use crate::folder::checkpoint::Checkpoint;
 use crate::folder::journal::{self, Journal};
-use crate::folder::{Manifest, document, files, frames, parts};
+use crate::folder::parts::{self, Part};
+use crate::folder::recovery::{self, Until};
+use crate::folder::{Manifest, document, files, frames};
 use crate::frame::Frame;
 use crate::table::{CsvRows, NpyRows, Table, check_channels};
 
@@ -39,8 +42,12 @@ pub struct ResultsWriter {
     formats: Formats,
     journal: Journal,
     frames: frames::Frames,
+    parts: Vec<Part>,
+    /// Number of the open part, and its rows.
     number: u32,
     part: Table,
+    /// First channel of the last row.
+    last: Option<f64>,
     since: Instant,
 }
 
@@ -58,52 +65,57 @@ impl ResultsWriter {
     ) -> Result<Self, ReportError> {
         check_channels(&manifest.channels)?;
         manifest.outline.as_ref().map_or(Ok(()), |o| o.check())?;
-        clear(path, existing)?;
+        recovery::clear(path, existing)?;
         let folder = if manifest.channels.is_empty() { path.to_owned() } else { parts::folder(path) };
         fs::create_dir_all(&folder).map_err(ReportError::io("make", &folder))?;
         manifest.complete = false;
         manifest.interrupted = None;
         manifest.documents.clear();
-        manifest.write(path)?;
-        Self::at_part(path, manifest, formats, 0)
+        manifest.frames = None;
+        parts::write_list(path, &[])?;
+        let frames = frames::Frames::start(path)?;
+        let writer = Self::at_part(path, manifest, formats, Until::default(), frames)?;
+        // Last: from now on it is a folder of results.
+        writer.manifest.write(path)?;
+        Ok(writer)
     }
 
     /// Goes on with a folder: rows whose first channel is greater than `time`, and later frames, are dropped.
     ///
     /// # Errors
-    /// The folder holds no results, or a file cannot be read or written.
+    /// The folder holds no results, rows or frames from before the checkpoint are missing, or a file cannot be read or
+    /// written.
     pub fn resume(path: &Path, formats: Formats, time: f64) -> Result<Self, ReportError> {
         let mut manifest = Manifest::read(path)?;
-        recover(path, &manifest)?;
-        let mut next = 0;
-        for number in parts::list(path)?.into_iter().rev() {
-            let mut part = parts::read(path, number)?;
-            let before = part.rows();
-            part.retain(|x| x <= time);
-            if part.rows() == before {
-                next = number + 1;
-                break;
-            }
-            if part.rows() > 0 {
-                parts::write(path, number, &part)?;
-                next = number + 1;
-                break;
-            }
-            files::remove(&parts::path(path, number))?;
-        }
-        frames::cut(path, time)?;
+        let until = Until::of(path, &manifest, time)?;
+        let mut frames = frames::read(path)?;
+        frames.retain(|frame| frame.time <= time);
+        let rows = until.parts.iter().map(|part| part.rows).sum();
+        recovery::check(path, time, rows, frames.len())?;
+        parts::keep(path, &until.parts)?;
+        let frames = frames::Frames::go_on(path, &frames)?;
         manifest.complete = false;
         manifest.interrupted = None;
-        manifest.write(path)?;
-        Self::at_part(path, manifest, formats, next)
+        manifest.frames = None;
+        let writer = Self::at_part(path, manifest, formats, until, frames)?;
+        writer.manifest.write(path)?;
+        Ok(writer)
     }
 
-    fn at_part(path: &Path, manifest: Manifest, formats: Formats, number: u32) -> Result<Self, ReportError> {
+    fn at_part(
+        path: &Path,
+        manifest: Manifest,
+        formats: Formats,
+        until: Until,
+        frames: frames::Frames,
+    ) -> Result<Self, ReportError> {
         Ok(Self {
             path: path.to_owned(),
-            journal: Journal::start(path, number, manifest.channels.len())?,
-            frames: frames::Frames::open(path)?,
-            number,
+            journal: Journal::start(path, until.next, manifest.channels.len())?,
+            frames,
+            parts: until.parts,
+            number: until.next,
+            last: until.last,
             part: Table::new(manifest.channels.clone()),
             since: Instant::now(),
             manifest,
@@ -128,6 +140,7 @@ impl ResultsWriter {
     pub fn row(&mut self, row: &[f64]) -> Result<(), ReportError> {
         self.part.push(row)?;
         self.journal.row(row)?;
+        self.last = row.first().copied();
         let full = self.part.rows() >= parts::most_rows(row.len());
         if full || self.since.elapsed() >= Duration::from_secs(parts::PART_SECONDS) {
             self.close_part()?;
@@ -150,7 +163,7 @@ impl ResultsWriter {
     /// # Errors
     /// The name is taken or no plain name, the value has no JSON form, or the file cannot be written.
     pub fn document(&mut self, name: &str, value: &(impl Serialize + ?Sized)) -> Result<(), ReportError> {
-        files::write_json_compact(&document::path(&self.path, name)?, value)?;
+        files::write_json(&document::path(&self.path, name)?, value)?;
         if !self.manifest.documents.iter().any(|d| d == name) {
             self.manifest.documents.push(name.into());
             self.manifest.write(&self.path)?;
@@ -158,27 +171,35 @@ impl ResultsWriter {
         Ok(())
     }
 
-    /// Writes `checkpoint.json` in place of an earlier one, which stays until the new one is complete.
+    /// Writes `checkpoint.json` in place of an earlier one, which stays until the new one is complete. Rows and frames so far
+    /// are made to survive a power failure first.
     ///
     /// # Errors
     /// The value has no JSON form, or the file cannot be written.
     pub fn checkpoint(&mut self, value: &(impl Serialize + ?Sized)) -> Result<(), ReportError> {
-        files::write_json_compact(&checkpoint_path(&self.path), value)
+        self.journal.sync()?;
+        self.frames.sync()?;
+        let closed: usize = self.parts.iter().map(|part| part.rows).sum();
+        let (rows, frames) = (closed + self.part.rows(), self.frames.count);
+        Checkpoint { rows, frames, last: self.last, value }.write(&self.path)
     }
 
     /// Closes the last part, writes the other formats and the manifest. The manifest is complete unless `change`, which
     /// adds summary and warnings, says why it was interrupted.
     ///
     /// # Errors
-    /// A file cannot be written.
+    /// A file cannot be written, or one that was written before has vanished.
     pub fn finish(mut self, change: impl FnOnce(&mut Manifest)) -> Result<(), ReportError> {
         self.close_part()?;
-        files::remove(&journal::path(&self.path))?;
+        self.frames.check()?;
+        parts::check(&self.path, &self.parts)?;
         self.other_formats()?;
         self.manifest.complete = true;
+        self.manifest.frames = Some(self.frames.count);
         change(&mut self.manifest);
         self.manifest.complete &= self.manifest.interrupted.is_none();
-        self.manifest.write(&self.path)
+        self.manifest.write(&self.path)?;
+        files::remove(&journal::path(&self.path))
     }
 
     fn close_part(&mut self) -> Result<(), ReportError> {
@@ -186,7 +207,8 @@ impl ResultsWriter {
         if self.part.rows() == 0 {
             return Ok(());
         }
-        parts::write(&self.path, self.number, &self.part)?;
+        self.parts.push(parts::write(&self.path, self.number, &self.part)?);
+        parts::write_list(&self.path, &self.parts)?;
         self.number += 1;
         self.journal = Journal::start(&self.path, self.number, self.part.channels.len())?;
         self.part.columns.iter_mut().for_each(Vec::clear);
@@ -206,65 +228,12 @@ impl ResultsWriter {
         if csv.is_none() && npy.is_none() {
             return Ok(());
         }
-        for number in parts::list(path)? {
-            let part = parts::read(path, number)?;
+        for part in &self.parts {
+            let part = parts::read(path, part)?;
             csv.as_mut().map_or(Ok(()), |rows| rows.append(&part))?;
             npy.as_mut().map_or(Ok(()), |rows| rows.append(&part))?;
         }
         csv.map_or(Ok(()), CsvRows::finish)?;
         npy.map_or(Ok(()), NpyRows::finish)
     }
-}
-
-/// Where the checkpoint is.
-pub(crate) fn checkpoint_path(folder: &Path) -> PathBuf {
-    folder.join("checkpoint.json")
-}
-
-/// Makes a part of what a killed program left in the journal; the number of its rows.
-pub(crate) fn recover(path: &Path, manifest: &Manifest) -> Result<usize, ReportError> {
-    let left = journal::read(path, &manifest.channels)?;
-    let left = left.filter(|(number, rows)| rows.rows() > 0 && !parts::path(path, *number).exists());
-    if let Some((number, rows)) = &left {
-        let folder = parts::folder(path);
-        fs::create_dir_all(&folder).map_err(ReportError::io("make", &folder))?;
-        parts::write(path, *number, rows)?;
-    }
-    files::remove(&journal::path(path))?;
-    Ok(left.map_or(0, |(_, rows)| rows.rows()))
-}
-
-/// Removes earlier results, or refuses.
-fn clear(path: &Path, existing: Existing) -> Result<(), ReportError> {
-    let mut entries = match fs::read_dir(path) {
-        Ok(entries) => entries,
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(()),
-        Err(e) => return Err(ReportError::io("read", path)(e)),
-    };
-    let Some(first) = entries.next() else { return Ok(()) };
-    let first = first.map_err(ReportError::io("read", path))?;
-    let earlier = match Manifest::read(path) {
-        Ok(manifest) => manifest,
-        Err(_) => {
-            let found = first.file_name().to_string_lossy().into_owned();
-            return Err(ReportError::Foreign { path: path.to_owned(), found });
-        }
-    };
-    if existing == Existing::Keep {
-        return Err(ReportError::Exists { path: path.to_owned() });
-    }
-    for number in parts::list(path)? {
-        files::remove(&parts::path(path, number))?;
-    }
-    for name in &earlier.documents {
-        files::remove(&document::path(path, name)?)?;
-    }
-    for name in ["trajectory.csv", "trajectory.npy", "part.new"] {
-        files::remove(&path.join(name))?;
-    }
-    // The manifest stays until the next one takes its place: the folder is always one of results.
-    for file in [journal::path(path), frames::path(path), checkpoint_path(path)] {
-        files::remove(&file)?;
-    }
-    Ok(())
 }

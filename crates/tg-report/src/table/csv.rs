@@ -5,6 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::ReportError;
+use crate::folder::NewFile;
 use crate::table::{Channel, Table};
 
 impl Table {
@@ -42,13 +43,12 @@ impl Table {
 /// Writes a CSV file piece by piece.
 pub(crate) struct CsvRows {
     path: PathBuf,
-    file: BufWriter<File>,
+    file: BufWriter<NewFile>,
 }
 
 impl CsvRows {
     pub(crate) fn create(path: &Path, channels: &[Channel]) -> Result<Self, ReportError> {
-        let file = File::create(path).map_err(ReportError::io("write", path))?;
-        let mut file = BufWriter::new(file);
+        let mut file = BufWriter::new(NewFile::create(path)?);
         let mut header = csv::Writer::from_writer(&mut file);
         let written = header.write_record(channels.iter().map(heading));
         written.map_err(|e| ReportError::damaged(path, e))?;
@@ -72,8 +72,10 @@ impl CsvRows {
         Ok(())
     }
 
-    pub(crate) fn finish(mut self) -> Result<(), ReportError> {
-        self.file.flush().map_err(ReportError::io("write", &self.path))
+    pub(crate) fn finish(self) -> Result<(), ReportError> {
+        let file =
+            self.file.into_inner().map_err(|e| ReportError::io("write", &self.path)(e.into_error()))?;
+        file.finish()
     }
 }
 

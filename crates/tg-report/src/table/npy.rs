@@ -1,10 +1,10 @@
 //! NumPy's `.npy`: structured, one named field for each channel, or a plain matrix with its names beside it.
 
-use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::ReportError;
+use crate::folder::NewFile;
 use crate::table::{Channel, Table};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
@@ -76,7 +76,7 @@ impl Table {
 /// Writes an NPY file piece by piece; the number of rows is put into the header at the end.
 pub(crate) struct NpyRows {
     path: PathBuf,
-    file: BufWriter<File>,
+    file: BufWriter<NewFile>,
     count_at: u64,
     rows: usize,
 }
@@ -119,7 +119,7 @@ impl NpyRows {
         bytes.extend(format!("{:>COUNT$}{end}", 0).bytes());
         bytes.resize(bytes.len() + padding, b' ');
         bytes.push(b'\n');
-        let mut file = BufWriter::new(File::create(path).map_err(ReportError::io("write", path))?);
+        let mut file = BufWriter::new(NewFile::create(path)?);
         file.write_all(&bytes).map_err(ReportError::io("write", path))?;
         Ok(Self { path: path.to_owned(), file, count_at, rows: 0 })
     }
@@ -138,9 +138,11 @@ impl NpyRows {
     pub(crate) fn finish(mut self) -> Result<(), ReportError> {
         let count = format!("{:>COUNT$}", self.rows);
         let written = self.file.seek(SeekFrom::Start(self.count_at));
-        let written =
-            written.and_then(|_| self.file.write_all(count.as_bytes())).and_then(|()| self.file.flush());
-        written.map_err(ReportError::io("write", &self.path))
+        let written = written.and_then(|_| self.file.write_all(count.as_bytes()));
+        written.map_err(ReportError::io("write", &self.path))?;
+        let file =
+            self.file.into_inner().map_err(|e| ReportError::io("write", &self.path)(e.into_error()))?;
+        file.finish()
     }
 }
 

@@ -2,7 +2,7 @@
 //! metadata of the file.
 
 use std::fs::File;
-use std::io::BufWriter;
+use std::panic::catch_unwind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,13 +10,14 @@ use parquet::basic::{Encoding, Repetition, Type as Physical};
 use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
-use parquet::file::metadata::KeyValue;
+use parquet::file::metadata::{ColumnChunkMetaData, KeyValue};
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
 use crate::error::ReportError;
+use crate::folder::write_file;
 use crate::table::{Channel, Table};
 
 /// Key of the channels, as JSON, in the metadata of a file.
@@ -29,12 +30,14 @@ impl Table {
     /// # Errors
     /// The file cannot be written, or the table is ill-formed.
     pub fn write_parquet(&self, path: &Path) -> Result<(), ReportError> {
+        write_file(path, &self.parquet(path)?)
+    }
+
+    /// The content of a Parquet file; `path` is for errors.
+    pub(crate) fn parquet(&self, path: &Path) -> Result<Vec<u8>, ReportError> {
         self.check()?;
-        let file = File::create(path).map_err(ReportError::io("write", path))?;
         let channels = serde_json::to_string(&self.channels).map_err(ReportError::json(path))?;
-        let file = write(self, BufWriter::new(file), channels);
-        let file = file.map_err(|e| ReportError::damaged(path, e))?;
-        file.sync_all().map_err(ReportError::io("write", path))
+        write(self, channels).map_err(|e| ReportError::damaged(path, e))
     }
 
     /// Reads a Parquet file of float64 columns.
@@ -43,7 +46,10 @@ impl Table {
     /// The file cannot be read, or has columns of another type.
     pub fn read_parquet(path: &Path) -> Result<Self, ReportError> {
         let file = File::open(path).map_err(ReportError::io("read", path))?;
-        let (table, channels) = read(file).map_err(|e| ReportError::damaged(path, e))?;
+        // The reader of Parquet panics where what a damaged file says about itself contradicts itself.
+        let read = catch_unwind(|| read(file));
+        let read = read.map_err(|_| ReportError::damaged(path, "it contradicts itself"))?;
+        let (table, channels) = read.map_err(|e| ReportError::damaged(path, e))?;
         match channels {
             None => Ok(table),
             Some(json) => {
@@ -55,7 +61,7 @@ impl Table {
     }
 }
 
-fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File, ParquetError> {
+fn write(table: &Table, channels: String) -> Result<Vec<u8>, ParquetError> {
     let column = |c: &Channel| {
         let kind = Type::primitive_type_builder(&c.name, Physical::DOUBLE);
         kind.with_repetition(Repetition::REQUIRED).build().map(Arc::new)
@@ -70,7 +76,7 @@ fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File,
         .set_created_by(concat!("tg-report version ", env!("CARGO_PKG_VERSION")).into())
         .set_key_value_metadata(Some(vec![KeyValue::new(CHANNELS.into(), channels)]))
         .build();
-    let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
     let mut columns = table.columns.iter();
     while let Some(mut writer) = group.next_column()? {
@@ -79,11 +85,11 @@ fn write(table: &Table, file: BufWriter<File>, channels: String) -> Result<File,
         writer.close()?;
     }
     group.close()?;
-    let file = writer.into_inner()?;
-    file.into_inner().map_err(|e| ParquetError::External(Box::new(e.into_error())))
+    writer.into_inner()
 }
 
 fn read(file: File) -> Result<(Table, Option<String>), ParquetError> {
+    let bytes = file.metadata()?.len();
     let reader = SerializedFileReader::new(file)?;
     let metadata = reader.metadata().file_metadata();
     let columns = metadata.schema_descr().columns();
@@ -97,6 +103,14 @@ fn read(file: File) -> Result<(Table, Option<String>), ParquetError> {
     let channels = pairs.and_then(|pairs| pairs.iter().find(|p| p.key == CHANNELS)?.value.clone());
     for k in 0..reader.num_row_groups() {
         let group = reader.get_row_group(k)?;
+        let outside = |column: &ColumnChunkMetaData| {
+            let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
+            let [start, size] = [start, column.compressed_size()].map(u64::try_from);
+            !matches!((start, size), (Ok(start), Ok(size)) if start.saturating_add(size) <= bytes)
+        };
+        if let Some(column) = group.metadata().columns().iter().find(|column| outside(column)) {
+            return Err(ParquetError::EOF(format!("column {} is not in the file", column.column_path())));
+        }
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
         for (i, column) in table.columns.iter_mut().enumerate() {
             let expected = column.len() + rows;

@@ -73,6 +73,29 @@ fn damaged_files_are_named() {
     }
 }
 
+/// Found by fuzzing: a size below zero, for which the reader of Parquet panics.
+#[test]
+fn a_parquet_file_with_any_wrong_byte_is_read_or_refused() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("t");
+    let mut table = Table::new(vec![Channel::time()]);
+    table.push(&[1.0]).unwrap();
+    table.write_parquet(&path).unwrap();
+    let sound = std::fs::read(&path).unwrap();
+    let mut outside = 0;
+    for at in 0..sound.len() {
+        for change in [0x01, 0x40, 0xff] {
+            let mut damaged = sound.clone();
+            damaged[at] ^= change;
+            std::fs::write(&path, damaged).unwrap();
+            if let Err(error) = Table::read_parquet(&path) {
+                outside += usize::from(error.to_string().contains("is not in the file"));
+            }
+        }
+    }
+    assert!(outside > 0);
+}
+
 #[test]
 fn names_must_differ() {
     let folder = tempdir().unwrap();

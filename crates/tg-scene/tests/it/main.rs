@@ -6,4 +6,5 @@ mod folder;
 mod import;
 mod limits;
 mod malformed;
+mod mutations;
 mod schemes;

@@ -1,33 +1,24 @@
 //! What is written while a run goes on: rows, pictures, checkpoints, progress.
 
+use std::io::ErrorKind;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
-use serde::{Deserialize, Serialize};
-use serde_json::Value;
-use tg_integrate::{Observer, State, StepReport};
-use tg_report::ResultsWriter;
+use serde_json::{Value, json};
+use tg_integrate::{Observer, State, StepReport, Summary};
+use tg_report::{ReportError, ResultsWriter};
 use tg_scene::RunSettings;
 use tg_trade::Method;
 
 use super::channels::Channels;
+use super::checkpoint::Checkpoint;
 use crate::answer::Failure;
 use crate::picture::Painter;
 use crate::progress::{INTERRUPTED, bar};
 
-/// Time between checkpoints \[s\].
-const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(5);
 /// Part of a step by which rounding may shift the time of a row.
 const ROUNDING: f64 = 1e-3;
-
-/// What `--resume` goes on with.
-#[derive(Deserialize, Serialize)]
-pub(super) struct Checkpoint {
-    /// How the run is stepped.
-    pub(super) method: Method,
-    pub(super) state: State,
-}
 
 /// Times at which something is due: multiples of an interval.
 struct Due {
@@ -63,7 +54,16 @@ pub(super) struct Recording<'p, 's, const D: usize> {
     method: Method,
     /// State times up to this one are in the folder already.
     resumed: Option<f64>,
+    /// What the run has counted, with what it had before it was interrupted.
+    totals: Summary,
+    /// Whether the start has been seen, which is no step.
+    begun: bool,
+    /// Time on the clock between checkpoints.
+    between_checkpoints: Duration,
+    /// When the last checkpoint was written.
     last_checkpoint: Option<Instant>,
+    /// Time of the last checkpoint \[s\].
+    goes_on_from: Option<f64>,
     progress: ProgressBar,
     duration: f64,
     failure: Option<Failure>,
@@ -74,10 +74,12 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
         writer: ResultsWriter,
         channels: Channels<'s, D>,
         painter: &'p Painter<'s, D>,
-        settings: &RunSettings,
-        (method, resumed): (Method, Option<f64>),
+        (settings, between_checkpoints): (&RunSettings, Duration),
+        method: Method,
+        earlier: Option<(f64, Summary)>,
     ) -> Self {
         let step = method.step;
+        let resumed = earlier.map(|(t, _)| t);
         Self {
             writer,
             channels,
@@ -86,11 +88,20 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
             frames: Due::new((1.0 / settings.frame_rate).max(step), step, resumed),
             method,
             resumed,
+            totals: earlier.map_or_else(Summary::default, |(_, totals)| totals),
+            begun: false,
+            between_checkpoints,
             last_checkpoint: None,
+            goes_on_from: resumed,
             progress: bar(1000, "{wide_bar} {percent}% of the motion, {eta} left"),
             duration: settings.duration,
             failure: None,
         }
+    }
+
+    /// What has been counted; `summary` says how the run ended.
+    pub(super) fn totals(&self, summary: Summary) -> Summary {
+        Summary { ended: summary.ended, ..self.totals }
     }
 
     fn record(&mut self, state: &State, report: &StepReport) -> Result<(), Failure> {
@@ -99,12 +110,12 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
         }
         if self.rows.is(state.t) {
             let row = self.channels.row(state, report)?;
-            self.writer.row(row)?;
+            self.writer.row(row).map_err(|error| self.unwritten(error))?;
         }
         if self.frames.is(state.t) {
-            self.writer.frame(&self.painter.frame_at(state)?)?;
+            self.writer.frame(&self.painter.frame_at(state)?).map_err(|error| self.unwritten(error))?;
         }
-        if self.last_checkpoint.is_none_or(|last| last.elapsed() >= BETWEEN_CHECKPOINTS) {
+        if self.last_checkpoint.is_none_or(|last| last.elapsed() >= self.between_checkpoints) {
             self.checkpoint(state)?;
         }
         Ok(())
@@ -112,8 +123,15 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
 
     fn checkpoint(&mut self, state: &State) -> Result<(), Failure> {
         self.last_checkpoint = Some(Instant::now());
-        self.writer.checkpoint(&Checkpoint { method: self.method, state: state.clone() })?;
+        let checkpoint = Checkpoint { method: self.method, state: state.clone(), totals: self.totals };
+        self.writer.checkpoint(&checkpoint).map_err(|error| self.unwritten(error))?;
+        self.goes_on_from = Some(state.t);
         Ok(())
+    }
+
+    /// The system refuses to write in the middle of a run: what was written stays.
+    fn unwritten(&self, error: ReportError) -> Failure {
+        unwritten(error, self.goes_on_from)
     }
 
     /// Closes the folder; `why` says what interrupted the run.
@@ -129,18 +147,35 @@ impl<'p, 's, const D: usize> Recording<'p, 's, D> {
             return Err(failure);
         }
         self.checkpoint(state)?;
-        self.writer.finish(|manifest| {
+        let (duration, from) = (self.duration, self.goes_on_from);
+        let finished = self.writer.finish(|manifest| {
+            manifest.settings["duration"] = json!(duration);
             manifest.summary = summary.clone();
             manifest.warnings = warnings.to_vec();
             manifest.interrupted = why;
-        })?;
-        Ok(())
+        });
+        finished.map_err(|error| unwritten(error, from))
+    }
+}
+
+/// The failure of an analysis, with what would mend it where the folder is still what it was.
+fn unwritten(error: ReportError, from: Option<f64>) -> Failure {
+    let room = matches!(&error, ReportError::Io { source, .. } if source.kind() != ErrorKind::NotFound);
+    match from.filter(|_| room) {
+        Some(t) => {
+            Failure::analysis(format!("{error}; what is written stays, --resume goes on from t = {t} s"))
+        }
+        None => Failure::analysis(error),
     }
 }
 
 impl<const D: usize> Observer for Recording<'_, '_, D> {
     /// A failure to write ends the run as Ctrl-C does, and is told at its end.
     fn observe(&mut self, state: &State, report: &StepReport) {
+        if self.begun {
+            self.totals += *report;
+        }
+        self.begun = true;
         if self.failure.is_none()
             && let Err(failure) = self.record(state, report)
         {

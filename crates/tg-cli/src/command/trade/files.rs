@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use serde_json::Value;
-use tg_report::{Axis, Channel, Plot, PlotKind, Series, Table};
+use tg_report::{Axis, Channel, Plot, PlotKind, Series, Table, write_file};
 use tg_trade::{Curve, Quantity};
 
 use super::Measured;
 use crate::answer::{Failure, pretty};
-use crate::results::write_file;
 
 /// Size of plots \[px\].
 const SIZE: [f64; 2] = [840.0, 480.0];

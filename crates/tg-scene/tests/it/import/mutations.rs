@@ -9,7 +9,7 @@ use super::neutral::CROSS;
 use super::ntrt::KITE;
 use super::triples::{BARS, CABLES, NODES};
 
-/// Texts made from one: cut at each place, one character removed, one replaced.
+/// Texts made from one: cut at each place, one character removed, one replaced, one piece taken out or said twice.
 fn mutants(text: &str) -> Vec<String> {
     let mut all = Vec::new();
     for (at, c) in text.char_indices() {
@@ -18,6 +18,9 @@ fn mutants(text: &str) -> Vec<String> {
         all.push(format!("{before}{after}"));
         let other = ["9", "-", "[", "\"", ",", ":", "{", "\n", "é", "/", ".", "#"][at % 12];
         all.push(format!("{before}{other}{after}"));
+        // Places far apart, the same in each run.
+        let (elsewhere, _) = text.char_indices().nth(at * 7919 % text.chars().count()).unwrap();
+        all.push(format!("{before}{}", &text[elsewhere..]));
     }
     all
 }
