@@ -1,7 +1,7 @@
 //! Projections of positions and velocities: nearest in the mass metric, idempotent, named where they fail.
 
 use crate::support::mixed::{Plane, Space, Spatial, mixed};
-use crate::support::{Random, all, build, jacobian, mass, pick, select, violation};
+use crate::support::{Random, all, build, jacobian, mass, pick, seeds, select, violation};
 use approx::assert_relative_eq;
 use nalgebra::{DMatrix, DVector};
 use tg_model::Joining::{Constrain, Share};
@@ -20,7 +20,7 @@ fn consistent<S: Space<D>, const D: usize>(seed: u64, check: impl Fn(&dyn Mechan
 }
 
 fn each(check: impl Fn(&dyn Mechanics, Vec<f64>, &mut Random)) {
-    for seed in 0..5 {
+    for seed in 0..seeds(5) {
         consistent::<Plane, 2>(seed, &check);
         consistent::<Spatial, 3>(seed, &check);
     }

@@ -1,7 +1,7 @@
 //! Cables one by one, rigid motions, member forces, changed laws: the extra trait and what goes with it.
 
 use crate::support::mixed::{Mixed, Plane, Space, Spatial, mixed, random_state};
-use crate::support::{Random, assert_close, derivative, force, jacobian, scatter, select, stiffness};
+use crate::support::{Random, assert_close, derivative, force, jacobian, scatter, seeds, select, stiffness};
 use nalgebra::{DMatrix, DVector};
 use tg_model::{At, CableLaw, ConstraintSource, Mechanics, Model, Tensioned};
 
@@ -9,7 +9,7 @@ const STEP: f64 = 1e-3;
 
 fn each_structure(check: impl Fn(&dyn Tensioned, &[f64], &[f64])) {
     fn with<S: Space<D>, const D: usize>(check: &impl Fn(&dyn Tensioned, &[f64], &[f64])) {
-        for seed in 0..8 {
+        for seed in 0..seeds(8) {
             let mixed: Mixed<D> = mixed::<S, D>(seed, true);
             let (q, _, u) = random_state(&mixed, &mut Random::new(2000 + seed));
             check(&mixed.model, &q, &u);
