@@ -1,11 +1,12 @@
 //! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask defaults`,
-//! `cargo xtask extremes`, `cargo xtask bench`, `cargo xtask instructions`.
+//! `cargo xtask extremes`, `cargo xtask mutants`, `cargo xtask bench`, `cargo xtask instructions`.
 
 mod bench;
 mod defaults;
 mod extremes;
 mod instructions;
 mod layers;
+mod mutants;
 mod paths;
 mod verify;
 
@@ -48,6 +49,10 @@ enum Task {
     ///
     /// Exit code 1 if an answer is wrong in silence, panics or does not end.
     Extremes(extremes::Options),
+    /// Judge the results of cargo-mutants: which changes of the code no test sees, and why.
+    ///
+    /// Exit code 1 if tests catch less than 90 % of a crate's viable mutants or a survivor has no reason.
+    Mutants(mutants::Options),
     /// Measure steps, analyses, memory, and error against time; compare with the floor program where there is one.
     Bench(bench::Options),
     /// Write the mast of N stages and its converged trajectory into target/bench, for the peers' scripts.
@@ -91,6 +96,7 @@ fn main() -> ExitCode {
         Task::Layers => layers::check(),
         Task::Defaults => defaults::measure(),
         Task::Extremes(options) => extremes::follow(&options),
+        Task::Mutants(options) => mutants::judge(&options),
         Task::Bench(options) => bench::bench(&options),
         Task::Mast { stages } => bench::mast(stages),
         Task::Curves(options) => bench::curves(&options),
