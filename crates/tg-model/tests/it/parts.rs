@@ -86,6 +86,8 @@ fn a_model_tells_its_parts() {
     assert_eq!(model.coordinate_name(9), "y component of base of support \"rail\"");
     let bead =
         |axis| ConstraintSource::Joint { name: "bead".into(), at: "basic point 0 of \"ball\"".into(), axis };
+    // Joints count by their members' length, not by the structure's; √10 m from the peg to the hook.
+    assert_eq!(model.constraint_scales(), [4.0, 2.0, 2.0, 2.0]);
     let rail = ConstraintSource::Support { name: "rail".into(), axis: 1 };
     assert_eq!(model.constraint_sources(), [ConstraintSource::Rigidity(boom), bead(0), bead(1), rail]);
 }
