@@ -3,8 +3,8 @@
 use crate::support::mixed::Cubic;
 use std::sync::Arc;
 use tg_model::{
-    At, BuildError, CableLaw, Entry, Features, HessianEntry, Mechanics, ProjectionError, Projector,
-    Redundancy, Signal, Sizes,
+    At, BuildError, CableLaw, Entry, Features, HessianEntry, Mechanics, ModelBuilder, ProjectionError,
+    Projector, Redundancy, Signal, Sizes,
 };
 
 /// A bead on the circle x² + y² = 1, without any name.
@@ -134,6 +134,11 @@ fn signals_and_laws_print_their_parameters() {
         (CableLaw::User(Arc::new(Cubic { a: 1.0, b: 0.0, c: 0.0 })), "User(..)"),
     ] {
         assert_eq!(format!("{law:?}"), words);
+        let mut b = ModelBuilder::<2>::new();
+        let balls = [0.0, 1.0].map(|x| b.particle(&format!("{x}"), 1.0, [x, 0.0]).unwrap());
+        b.cable("tie", balls[0].node(0), balls[1].node(0), law, 1.0).unwrap();
+        let whole = format!("{:?}", b.build().unwrap());
+        assert!(whole.contains(words) && whole.contains("UserLaw") == (words == "User(..)"), "{whole}");
     }
 }
 
