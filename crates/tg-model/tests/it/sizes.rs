@@ -56,7 +56,7 @@ fn the_size_of_a_structure_is_that_of_its_points() {
         };
         assert!((allowed(1.0) / (5.0 * MEETING) - 1.0).abs() < 1e-12, "{kind}");
     }
-    // Points that all are one have no size; then it is a metre.
+    // Points that all are one have no size, nor has one that is not a number; then it is a metre.
     let error = build::<2>(|b| {
         let balls = [b.particle("a", 1.0, [7.0, 7.0])?, b.particle("b", 1.0, [7.0, 7.0])?];
         b.cable("tie", balls[0].node(0), balls[1].node(0), CableLaw::linear(1.0), 0.0)?;
@@ -68,6 +68,12 @@ fn the_size_of_a_structure_is_that_of_its_points() {
         b.joint("joint", &[balls[0].node(0), balls[1].node(0)], Constrain)
     });
     assert_eq!(model.unwrap().constraint_scales(), [1.0, 1.0]);
+    let error = build::<2>(|b| {
+        let balls = [b.particle("a", 1.0, [0.0, 0.0])?, b.particle("b", 1.0, [1e-3, 0.0])?];
+        b.anchor("far", [1e200, 0.0])?;
+        b.joint("joint", &[balls[0].node(0), balls[1].node(0)], Constrain)
+    });
+    assert!(matches!(error, Err(BuildError::InconsistentJoint { allowed: MEETING, .. })));
 }
 
 /// A joint of points alone is scaled by the structure.
@@ -131,6 +137,26 @@ fn a_redundant_bar_with_rounded_ends_is_dropped() {
         let q = model.initial_coordinates();
         let off = model.dropped_violation(&q).max(violation(&model, &q));
         assert!((off / (1.3 * MEETING) - 1.0).abs() < 1e-6, "{size:e}: {off:e}");
+    }
+}
+
+/// A support along a bar on its other support: the bar's rigidity implies it, in metres or in kilometres.
+#[test]
+fn what_implies_a_constraint_is_named_at_every_size() {
+    for size in SIZES {
+        let error = build::<2>(|b| {
+            let bars = [
+                b.bar("boom", 1.0, [0.0, 0.0], [size, 0.0])?,
+                b.bar("bystander", 1.0, [0.0, 0.0], [0.0, size])?,
+            ];
+            b.fix("foot", bars[0].node(0))?;
+            b.support("rail", bars[0].mass_centre(), 0, 0.0)
+        });
+        let Err(BuildError::Redundant { list, .. }) = error else { panic!("{size:e}") };
+        assert_eq!((list.len(), list[0].implied_by.len()), (1, 1), "{size:e}: {list:?}");
+        let mut names = [list[0].constraint.as_str(), list[0].implied_by[0].as_str()];
+        names.sort_unstable();
+        assert_eq!(names, ["rigidity u·u of \"boom\"", "support \"rail\""]);
     }
 }
 
