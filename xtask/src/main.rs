@@ -1,5 +1,5 @@
 //! What maintainers run: `cargo xtask verify`, `cargo xtask paths`, `cargo xtask layers`, `cargo xtask cites`, `cargo xtask trade`,
-//! `cargo xtask extremes`, `cargo xtask faults`, `cargo xtask bench`, `cargo xtask instructions`.
+//! `cargo xtask extremes`, `cargo xtask faults`, `cargo xtask mutants`, `cargo xtask bench`, `cargo xtask instructions`.
 
 mod bench;
 mod cites;
@@ -8,6 +8,7 @@ mod extremes;
 mod faults;
 mod instructions;
 mod layers;
+mod mutants;
 mod paths;
 mod trade;
 mod verify;
@@ -59,6 +60,10 @@ enum Task {
     ///
     /// Of the program `tg` beside this one: `cargo build --release -p tg-cli`. Exit code 1 if something does not hold.
     Faults(faults::Options),
+    /// Judge the results of cargo-mutants: which changes of the code no test sees, and why.
+    ///
+    /// Exit code 1 if tests catch less than 90 % of a crate's viable mutants or a survivor has no reason.
+    Mutants(mutants::Options),
     /// Measure steps, analyses, memory, and error against time; compare with the floor program where there is one.
     Bench(bench::Options),
     /// Write the mast of N stages and its converged trajectory into target/bench, for the peers' scripts.
@@ -104,6 +109,7 @@ fn main() -> ExitCode {
         Task::Trade(options) => trade::trade(&options),
         Task::Extremes(options) => extremes::follow(&options),
         Task::Faults(options) => faults::try_all(&options),
+        Task::Mutants(options) => mutants::judge(&options),
         Task::Bench(options) => bench::bench(&options),
         Task::Mast { stages } => bench::mast(stages),
         Task::Curves(options) => bench::curves(&options),

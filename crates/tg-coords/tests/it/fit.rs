@@ -150,6 +150,21 @@ fn a_weakly_inverted_body_still_gets_a_rotation() {
     }
 }
 
+/// Flattened, so that a singular value is zero, and turning: what is left of it says how fast.
+#[test]
+fn a_flattened_body_still_has_a_twist() {
+    let nodes = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    let mass = MassProperties::massless(Vector3::zeros()).unwrap();
+    let body = Member::new(CoordType::Ruvw, &nodes, mass).unwrap();
+    let (velocity, omega) = (v([1.0, 2.0, 3.0]), v([0.3, -0.5, 0.8]));
+    let flat = [nodes[0], nodes[1], nodes[2] * 0.5, Vector3::zeros()];
+    let mut rates = flat.map(|node| omega.cross(&node));
+    rates[0] += velocity;
+    let twist = body.twist(&flat, &rates).unwrap();
+    assert!((twist.angular_velocity() - omega).amax() < 1e-15);
+    assert!((twist.velocity - velocity).amax() < 1e-15);
+}
+
 #[test]
 fn the_fit_converges_linearly_to_the_truth() {
     let random = &mut Random(23);

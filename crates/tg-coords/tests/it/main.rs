@@ -10,4 +10,5 @@ mod mass_matrix;
 mod mass_properties;
 mod pose;
 mod properties;
+mod scales;
 mod weights;

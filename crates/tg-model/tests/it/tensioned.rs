@@ -1,15 +1,15 @@
 //! Cables one by one, rigid motions, member forces, changed laws: the extra trait and what goes with it.
 
-use crate::support::mixed::{Mixed, Plane, Space, Spatial, mixed, random_state};
-use crate::support::{Random, assert_close, derivative, force, jacobian, scatter, select, stiffness};
-use nalgebra::{DMatrix, DVector};
+use crate::support::mixed::{Mixed, Plane, Space, Spatial, mixed, random_state, rigid_motion, spins};
+use crate::support::{Random, assert_close, derivative, force, jacobian, scatter, seeds, select, stiffness};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use tg_model::{At, CableLaw, ConstraintSource, Mechanics, Model, Tensioned};
 
 const STEP: f64 = 1e-3;
 
 fn each_structure(check: impl Fn(&dyn Tensioned, &[f64], &[f64])) {
     fn with<S: Space<D>, const D: usize>(check: &impl Fn(&dyn Tensioned, &[f64], &[f64])) {
-        for seed in 0..8 {
+        for seed in 0..seeds(8) {
             let mixed: Mixed<D> = mixed::<S, D>(seed, true);
             let (q, _, u) = random_state(&mixed, &mut Random::new(2000 + seed));
             check(&mixed.model, &q, &u);
@@ -102,6 +102,23 @@ fn rigid_motions_keep_lengths() {
             }
         }
     });
+}
+
+/// D translations, then D(D-1)/2 rotations about the origin: of points like the points', of base vectors without the shift.
+#[test]
+fn rigid_motions_are_those_of_every_member() {
+    fn check<S: Space<D>, const D: usize>(seed: u64) {
+        let mixed: Mixed<D> = mixed::<S, D>(seed, false);
+        let q = mixed.model.initial_coordinates();
+        let unit = |axis: usize| SVector::<f64, D>::from_fn(|i, _| f64::from(u8::from(i == axis)));
+        let shifts = (0..D).map(|axis| rigid_motion(&mixed, &q, unit(axis), SMatrix::zeros()));
+        let turns = spins::<D>().into_iter().map(|spin| rigid_motion(&mixed, &q, SVector::zeros(), spin));
+        assert_eq!(mixed.model.rigid_motions(&q), shifts.chain(turns).collect::<Vec<_>>());
+    }
+    for seed in 0..seeds(4) {
+        check::<Plane, 2>(seed);
+        check::<Spatial, 3>(seed);
+    }
 }
 
 #[test]

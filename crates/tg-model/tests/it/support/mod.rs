@@ -42,6 +42,11 @@ impl Random {
     }
 }
 
+/// How many random structures a test looks at: fewer in a build that checks overflow and is slow.
+pub(crate) const fn seeds(all: u64) -> u64 {
+    if cfg!(debug_assertions) { all.div_ceil(4) } else { all }
+}
+
 /// ∂f/∂x by the five-point central difference, exact for polynomials of degree four: row i, column j is ∂f_i/∂x_j.
 pub(crate) fn derivative(x: &[f64], h: f64, f: impl Fn(&[f64]) -> Vec<f64>) -> DMatrix<f64> {
     let columns: Vec<DVector<f64>> = (0..x.len())
