@@ -11,13 +11,13 @@ use std::error::Error;
 
 /// Units that a structure's dimensionless description is multiplied by: all numbers that enter and leave the library.
 #[derive(Clone, Copy, Debug)]
-pub struct Units {
+pub(crate) struct Units {
     /// \[m\]
-    pub length: f64,
+    pub(crate) length: f64,
     /// \[kg\]
-    pub mass: f64,
+    pub(crate) mass: f64,
     /// \[s\]
-    pub time: f64,
+    pub(crate) time: f64,
 }
 
 /// Where every number stands as it is described.
@@ -41,34 +41,34 @@ const SAME: f64 = 1e-9;
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 impl Units {
-    pub fn acceleration(self) -> f64 {
+    pub(crate) fn acceleration(self) -> f64 {
         self.length / (self.time * self.time)
     }
 
-    pub fn force(self) -> f64 {
+    pub(crate) fn force(self) -> f64 {
         self.mass * self.acceleration()
     }
 
-    pub fn stiffness(self) -> f64 {
+    pub(crate) fn stiffness(self) -> f64 {
         self.mass / (self.time * self.time)
     }
 
-    pub fn damping(self) -> f64 {
+    pub(crate) fn damping(self) -> f64 {
         self.mass / self.time
     }
 
-    pub fn energy(self) -> f64 {
+    pub(crate) fn energy(self) -> f64 {
         self.force() * self.length
     }
 
     /// A vector of lengths.
-    pub fn place<const D: usize>(self, x: [f64; D]) -> [f64; D] {
+    pub(crate) fn place<const D: usize>(self, x: [f64; D]) -> [f64; D] {
         x.map(|x| x * self.length)
     }
 }
 
 /// Numbers per their unit.
-pub fn per(unit: f64, numbers: impl IntoIterator<Item = f64>) -> Vec<f64> {
+pub(crate) fn per(unit: f64, numbers: impl IntoIterator<Item = f64>) -> Vec<f64> {
     numbers.into_iter().map(|x| x / unit).collect()
 }
 

@@ -8,7 +8,7 @@ use super::{Outcome, Units};
 
 /// A crane: a mast on shaken ground, guyed by damped cables that go slack, with a body hinged to its top, under weight and
 /// a load that swings.
-pub fn crane(units: Units) -> Outcome<Model<3>> {
+pub(crate) fn crane(units: Units) -> Outcome<Model<3>> {
     let at = |x| units.place(x);
     let mut b = ModelBuilder::<3>::new();
     b.gravity([0.0, 0.0, -9.81 * units.acceleration()])?;
@@ -54,7 +54,7 @@ fn body(units: Units) -> Outcome<Member<3>> {
 }
 
 /// A free prism of three bars, prestressed: one state of self-stress, one internal mechanism, six rigid motions.
-pub fn prism(units: Units) -> Result<Model<3>, BuildError> {
+pub(crate) fn prism(units: Units) -> Result<Model<3>, BuildError> {
     // Of unit radius and height, in equilibrium at a twist of 30°: force densities √3 in the vertical cables, 1 in the others.
     let (twist, third) = (std::f64::consts::FRAC_PI_6, std::f64::consts::TAU / 3.0);
     let corner = |k: usize, turn: f64, z: f64| {
@@ -86,7 +86,7 @@ pub fn prism(units: Units) -> Result<Model<3>, BuildError> {
 }
 
 /// A net of particles between two walls: many cables, no constraint.
-pub fn net(units: Units, rows: usize, columns: usize) -> Result<Model<3>, BuildError> {
+pub(crate) fn net(units: Units, rows: usize, columns: usize) -> Result<Model<3>, BuildError> {
     let mut b = ModelBuilder::<3>::new();
     b.gravity([0.0, 0.0, -0.5 * units.acceleration()])?;
     let at = |r: usize, c: usize| {
@@ -124,7 +124,7 @@ pub fn net(units: Units, rows: usize, columns: usize) -> Result<Model<3>, BuildE
 }
 
 /// A plate on two springs with free lengths and a bar on a third: several equilibria.
-pub fn linkage(units: Units) -> Outcome<Model<2>> {
+pub(crate) fn linkage(units: Units) -> Outcome<Model<2>> {
     let at = |x| units.place(x);
     let mut b = ModelBuilder::<2>::new();
     b.gravity([0.0, -1.5 * units.acceleration()])?;
@@ -150,7 +150,7 @@ pub fn linkage(units: Units) -> Outcome<Model<2>> {
 }
 
 /// An upright bar on a hinge between two springs of 8 units, pressed down by a load at its top: it stands up to 16 units.
-pub fn column(units: Units) -> Result<Model<2>, BuildError> {
+pub(crate) fn column(units: Units) -> Result<Model<2>, BuildError> {
     let at = |x| units.place(x);
     let mut b = ModelBuilder::<2>::new();
     let foot = b.anchor("foot", at([0.0, 0.0]))?;
