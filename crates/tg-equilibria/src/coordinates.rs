@@ -23,8 +23,7 @@ const ONE: Complex64 = Complex64::new(1.0, 0.0);
 
 /// The variables of a structure, its nodes by them, and which of them are independent. Lengths are per unit.
 pub(crate) struct Coordinates<const D: usize> {
-    /// The unit of length \[m\]: near the structure's size, so that polynomials have coefficients of order one; exactly 1 m
-    /// for those of some centimetres to some ten metres.
+    /// The unit of length \[m\], near the structure's size, so that polynomials have coefficients of order one.
     pub(crate) unit: f64,
     pub(crate) variables: Variables,
     /// The D sides of each node.
@@ -36,7 +35,7 @@ pub(crate) struct Coordinates<const D: usize> {
 impl<const D: usize> Coordinates<D> {
     /// The coordinates of a structure that starts from its initial configuration.
     pub(crate) fn new(model: &Model<D>) -> Result<Self, EquilibriaError> {
-        let unit = unit_near(model.size());
+        let unit = model.unit();
         let q: Vec<f64> = model.initial_coordinates().iter().map(|x| x / unit).collect();
         let places: Vec<SVector<f64, D>> = q.chunks_exact(D).map(SVector::from_column_slice).collect();
         let mut is_free = vec![false; q.len()];
@@ -177,11 +176,6 @@ impl<const D: usize> Coordinates<D> {
         }
         Ok(())
     }
-}
-
-/// A power of 1024 near a size: scaling by it rounds nothing.
-fn unit_near(size: f64) -> f64 {
-    (10.0 * (size.log2() / 10.0).round()).exp2()
 }
 
 /// The sides of a node as functions of new variables, as far as supports leave it free.

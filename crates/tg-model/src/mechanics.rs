@@ -94,6 +94,11 @@ pub trait Mechanics: Send + Sync {
     fn constraint_scales(&self) -> &[f64];
     /// Size of the structure \[m\], wherever it stands: what displacements are small or large against.
     fn size(&self) -> f64;
+    /// A unit of length near the size \[m\]: a power of 1024, so that scaling by it rounds nothing, and exactly 1 m for structures
+    /// of some centimetres to some ten metres.
+    fn unit(&self) -> f64 {
+        (10.0 * (self.size().log2() / 10.0).round()).exp2()
+    }
 
     /// Overwrites the prescribed components of q and q̇ by their values at time `t`.
     fn prescribe(&self, t: f64, q: &mut [f64], v: &mut [f64]);

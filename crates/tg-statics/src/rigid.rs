@@ -18,7 +18,7 @@ const SAMPLES: usize = 4;
 /// Terms of the exponential series of a motion.
 const TERMS: u32 = 24;
 
-/// Rigid motions of a structure as coefficients of [`Tensioned::rigid_motions`], rotations per its size.
+/// Rigid motions of a structure as coefficients of [`Tensioned::rigid_motions`], rotations per unit of length.
 #[derive(Clone, Debug)]
 pub(crate) struct RigidMotions {
     /// Coefficients, raw motions by free ones.
@@ -42,17 +42,14 @@ impl RigidMotions {
         let mut jacobian = vec![0.0; mechanics.jacobian_pattern().len()];
         mechanics.jacobian(q, &mut jacobian);
         let constraints = mechanics.sizes().constraints;
-        let mut norms = vec![0.0_f64; constraints];
-        for (&(row, _), a) in mechanics.jacobian_pattern().iter().zip(&jacobian) {
-            norms[row] = norms[row].hypot(*a);
-        }
         let mut held = Mat::zeros(prescribed.len() + constraints, kept);
         for k in 0..kept {
             for (row, &i) in prescribed.iter().enumerate() {
                 held[(row, k)] = fields[(i, k)];
             }
             for (&(row, i), a) in mechanics.jacobian_pattern().iter().zip(&jacobian) {
-                held[(prescribed.len() + row, k)] += a * fields[(i, k)] / norms[row].max(f64::MIN_POSITIVE);
+                let rate = a * fields[(i, k)] / mechanics.constraint_scales()[row];
+                held[(prescribed.len() + row, k)] += structure.unit() * rate;
             }
         }
         Ok(Self { coefficients: &scaled * null_space(&held)? })
@@ -117,16 +114,16 @@ impl RigidMotions {
     }
 }
 
-/// The velocity fields at q as columns, those of rotations per size of the structure: one unit for all of them.
+/// The velocity fields at q as columns, those of rotations per unit of length: one unit for all of them.
 fn motions(structure: &dyn Tensioned, q: &[f64]) -> Mat<f64> {
     let fields = structure.rigid_motions(q);
     // D of the D(D+1)/2 are translations.
     let translations = fields.len().div_ceil(2);
-    let size = structure.size();
+    let unit = structure.unit();
     Mat::from_fn(
         q.len(),
         fields.len(),
-        |r, c| if c < translations { fields[c][r] } else { fields[c][r] / size },
+        |r, c| if c < translations { fields[c][r] } else { fields[c][r] / unit },
     )
 }
 

@@ -10,10 +10,12 @@ pub(crate) fn size(structure: &dyn Tensioned, q: &[f64]) -> f64 {
     lengths.into_iter().fold(members(structure.mechanics()), f64::max)
 }
 
-/// Largest length of a member. The size of a constraint is a squared length where Φ is a dot product, else a length.
+/// Largest length that constraints speak of: of a member where Φ is a dot product, whose size is that length squared; joints
+/// let whole members move, as far as the structure is large.
 pub(crate) fn members(mechanics: &dyn Mechanics) -> f64 {
     let mut is_square = vec![false; mechanics.sizes().constraints];
     mechanics.constraint_hessian().iter().for_each(|e| is_square[e.constraint] = true);
     let scales = mechanics.constraint_scales().iter().zip(is_square);
-    scales.map(|(&scale, square)| if square { scale.sqrt() } else { scale }).fold(0.0, f64::max)
+    let length = |(scale, square): (&f64, bool)| if square { scale.sqrt() } else { mechanics.size() };
+    scales.map(length).fold(0.0, f64::max)
 }
