@@ -23,6 +23,9 @@ impl Mechanics for Bead {
     fn features(&self) -> Features {
         Features::default()
     }
+    fn size(&self) -> f64 {
+        1.0
+    }
     fn free(&self) -> &[usize] {
         &[0, 1]
     }
