@@ -12,7 +12,8 @@
 //! let bar = b.bar("bar", 1.0, [0.0, 0.0], [1.0, 0.0])?;
 //! b.joint("hinge", &[pivot.into(), bar.node(0)], Joining::Share)?;
 //! let model = b.build()?;
-//! let subject = Subject::new(&model, &model.velocities_at_rest(), 2.0);
+//! let velocities = model.velocities_at_rest();
+//! let subject = Subject::new(&model, &velocities, 2.0);
 //! let choice = choose(&subject, 1e-4, &Method::fixed(Scheme::Symplectic, 1e-3))?;
 //! assert!(choice.error <= 1e-4 && choice.method.step < 2.0 / 128.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

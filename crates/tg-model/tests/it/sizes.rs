@@ -73,7 +73,8 @@ fn the_size_of_a_structure_is_that_of_its_points() {
         b.anchor("far", [1e200, 0.0])?;
         b.joint("joint", &[balls[0].node(0), balls[1].node(0)], Constrain)
     });
-    assert!(matches!(error, Err(BuildError::InconsistentJoint { allowed: MEETING, .. })));
+    // A size whose square overflows is none; the place is refused.
+    assert!(matches!(error, Err(BuildError::FarFromOrigin { distance: 1e200, .. })), "{error:?}");
 }
 
 /// A joint of points alone is scaled by the structure.
