@@ -87,17 +87,27 @@ impl Cost {
     }
 }
 
-/// A row for each choice: cost of a step, errors against a motion.
-fn against(head: &str, costs: &[Cost], reference: &Motion) -> String {
-    let header = [head, "µs per step", "iterations", "positions [m]", "tensions [N]", "energy [J]"];
-    let rows = costs.iter().map(|cost| {
+/// A row of the table for each choice: cost of a step, errors against a motion.
+fn rows(costs: &[Cost], reference: &Motion) -> Vec<Vec<String>> {
+    let row = |cost: &Cost| {
         let errors = reference.distance(&cost.motion);
         let mut row = vec![cost.name.clone()];
         row.extend(cost.per_step());
         row.extend(Quantity::ALL.map(|quantity| digits(errors[quantity])));
         row
-    });
-    table(&header.map(String::from), &rows.collect::<Vec<_>>())
+    };
+    costs.iter().map(row).collect()
+}
+
+/// The table of such rows.
+fn of_rows(head: &str, rows: &[Vec<String>]) -> String {
+    let header = [head, "µs per step", "iterations", "positions [m]", "tensions [N]", "energy [J]"];
+    table(&header.map(String::from), rows)
+}
+
+/// The table of choices that are held against one motion.
+fn against(head: &str, costs: &[Cost], reference: &Motion) -> String {
+    of_rows(head, &rows(costs, reference))
 }
 
 /// The true motion of a subject.

@@ -5,7 +5,7 @@ use tg_coords::{CoordType, MassProperties, Member, Pose, Twist};
 use tg_model::{Model, ModelBuilder};
 use tg_trade::{Reference, Subject};
 
-use super::{Cost, Topic, against, truth};
+use super::{Cost, Topic, against, of_rows, rows, truth};
 use crate::TaskError;
 
 /// Step \[s\].
@@ -42,20 +42,19 @@ pub(super) fn coordinate_type() -> Result<Topic, TaskError> {
         ("one point, three vectors of 1000 m", CoordType::Ruvw, 1e3),
     ];
     // Each type has points of its own: positions are compared with the same type's truth, and the energy is the same for all.
-    let mut table = String::new();
+    let mut all = Vec::new();
     for (name, coord_type, length) in variants {
         let (model, velocities) = top(coord_type, length)?;
         let subject = Subject::new(&model, &velocities, END);
         let truth = Reference::new(&subject, 1.0)?.motion;
-        let rows = against("coordinates", &[Cost::symplectic(name, &subject, STEP)?], &truth);
-        table += if table.is_empty() { &rows } else { rows.splitn(3, '\n').nth(2).unwrap_or_default() };
+        all.extend(rows(&[Cost::symplectic(name, &subject, STEP)?], &truth));
     }
     Ok(Topic {
         title: "Coordinate type",
         text: "A heavy top of 0.1 m spinning about its tip, 0.512 s in steps of 1 ms, in natural coordinates of several types. \
                The motion is the same for all up to rounding (tests of `tg-integrate`); positions are those of the type's \
                own basic points, so that a fixed point alone shows no error. There are no cables.",
-        table,
+        table: of_rows("coordinates", &all),
     })
 }
 

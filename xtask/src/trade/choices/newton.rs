@@ -5,7 +5,7 @@ use tg_fixtures::mast;
 use tg_integrate::{NewtonOptions, Symplectic};
 use tg_trade::Subject;
 
-use super::{Cost, Topic, against, truth};
+use super::{Cost, Topic, against, of_rows, rows, truth};
 use crate::TaskError;
 
 /// Step \[s\].
@@ -53,16 +53,12 @@ pub(super) fn kept_factors() -> Result<Topic, TaskError> {
     let name = "planar tower, new in each iteration";
     costs.push(Cost::of(name, &subject, STEP, |model| Symplectic::new(model, never))?);
     // Pairs: how far the second is from the first.
-    let mut table = String::new();
-    for pair in costs.chunks(2) {
-        let rows = against("factors", pair, &pair[0].motion);
-        table += if table.is_empty() { &rows } else { rows.splitn(3, '\n').nth(2).unwrap_or_default() };
-    }
+    let pairs: Vec<_> = costs.chunks(2).flat_map(|pair| rows(pair, &pair[0].motion)).collect();
     Ok(Topic {
         title: "Kept factors",
         text: "Factors of the Newton matrix (55) kept over iterations and steps while they serve, or new ones in each \
                iteration, as Algorithm 1 is printed. 0.512 s in steps of 1 ms; distances are between the two.",
-        table,
+        table: of_rows("factors", &pairs),
     })
 }
 
