@@ -4,6 +4,7 @@
 //! Ḿ Δ - h p_k - h²/2 F(q_m, q̇_m, t_m) - A(q_k)ᵀ ν = 0        (53a), (54)    Δ = q_{k+1} - q_k,  ν = h²/2 λ
 //! Φ(q_{k+1}) = 0                                              (53c)
 //! p_{k+1} = Ḿ Δ/h + h/2 F + A(q_{k+1})ᵀ ν/h                   (53b)
+//!         = p_k + h F + (A(q_k) + A(q_{k+1}))ᵀ ν/h            (53b) with Δ of (54)
 //! Jac = [M + h²/4 (-∂F/∂q) + h/2 (-∂F/∂q̇), -A(q_k)ᵀ; A(q_{k+1}), 0]         (55)
 //! q_m = q_k + Δ/2,  q̇_m = Δ/h,  t_m = t_k + h/2                              (49)
 //! ```
@@ -11,7 +12,7 @@
 //!
 //! - The momentum is projected on A M⁻¹ p = 0 at the end of each step. Its normal part would flip sign every step and
 //!   never decay: invisible in q, it pollutes q̇, λ and the energy. The state keeps the projected velocity;
-//!   p_k = Ḿ q̇_k. (53b)'s last term is normal, and the projection would remove h/2 F's part along it as well, but
+//!   p_k = Ḿ q̇_k. (53b)'s last term is normal, and the projection would remove the forces' part along it as well, but
 //!   only to the rounding of that part, which at rest is far above q̇.
 //! - Newton starts from Δ = h q̇_k + (h q̇_k - Δ_last), the last step's acceleration once more, and from multipliers that go on
 //!   as they did, where steps resolve the motion. On the guyed mast of 32 stages that saves half of the factorisations.
@@ -19,6 +20,8 @@
 //!   less than a factor of ten, and after a step of more than five iterations. A step of that mast then takes four or five
 //!   iterations, one in eight has new factors, and the time is less than a third of that of full Newton steps. The last
 //!   correction is applied without another look at its residual.
+//! - The momentum is taken from p_k and the impulses. From Δ/h, what kept factors leave of (54), always with one sign, adds
+//!   up: 6e-14 of p a step moved a pendulum by 2e-7 m after 131 072 steps, of an error of 2e-8 m of the scheme.
 //! - The unknown is Δ, not q_{k+1}: no digits cancel at small steps.
 //! - Residuals are compared with their own terms (dynamic rows) and with the member's size (constraints), so that the
 //!   tolerance means the same at every h. A correction below the resolution of q ends the iteration as well.

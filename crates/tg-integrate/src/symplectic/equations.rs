@@ -107,8 +107,9 @@ impl Symplectic<'_> {
         taut.iter().zip(taut_by_law).filter(|(a, b)| *a != *b).count() as u32
     }
 
-    /// Momentum (53b), its projection, and the new state. The force is that of the iterate before the last correction, which
-    /// moved it by less than its rounding.
+    /// Momentum (53b), its projection, and the new state. With Δ of (54) it is p_k and the impulses of the step: what
+    /// Newton's method leaves of (54) then stays in the positions, where from Δ/h it would add up in the momentum. The force
+    /// is that of the iterate before the last correction, which moved it by less than its rounding.
     pub(super) fn finish(&mut self, state: &mut State, h: f64) -> Result<(), ProjectionError> {
         let Self { system, projector, work: w, .. } = self;
         for ((end, q), delta) in w.q_end.iter_mut().zip(&state.q).zip(&w.delta) {
@@ -116,29 +117,43 @@ impl Symplectic<'_> {
         }
         for &Run { coordinate, len, .. } in system.layout.runs() {
             let run = coordinate..coordinate + len;
-            w.v_end[run.clone()].iter_mut().zip(&w.delta[run]).for_each(|(v, delta)| *v = delta / h);
+            w.v_end[run.clone()].copy_from_slice(&state.v[run]);
         }
-        // Momentum of the supports' mean velocity against that at the end.
+        // Momentum that the supports' velocity at the start lends, against that at the end.
         let moving = system.mechanics.features().moving_supports;
         if moving {
-            for i in 0..w.delta.len() {
-                w.v_mid[i] = w.delta[i] / h - w.v_end[i];
+            for ((change, start), end) in w.v_mid.iter_mut().zip(&state.v).zip(&w.v_end) {
+                *change = start - end;
             }
             system.inertia.product(&w.v_mid, &mut w.inertial);
         } else {
             w.inertial.fill(0.0);
         }
+        system.spread_multipliers(&w.nu);
+        let rate = 1.0 / h;
+        for (impulse, (force, reaction)) in
+            w.inertial.iter_mut().zip(w.force.iter().zip(&system.constraint_force))
+        {
+            *impulse += h * force + rate * reaction;
+        }
+        if !self.project {
+            // The normal part of p_k as well.
+            for (p, &i) in w.p.iter_mut().zip(system.mechanics.free()) {
+                let normal = *p - system.inertia.row(i, &state.v);
+                *p += h * w.force[i] + rate * system.constraint_force[i];
+                w.inertial[i] += normal;
+            }
+        }
         projector.velocity_after_impulse(
             &w.q_end,
             |jacobian, impulse| {
                 system.spread(jacobian, &w.nu);
-                let rate = 1.0 / h;
                 for &Run { coordinate, unknown, len } in system.layout.runs() {
                     let full = coordinate..coordinate + len;
-                    let forces = w.force[full.clone()].iter().zip(&system.constraint_force[full.clone()]);
-                    let impulses = impulse[unknown..unknown + len].iter_mut().zip(&w.inertial[full]);
-                    for ((impulse, supports), (force, reaction)) in impulses.zip(forces) {
-                        *impulse = 0.5 * h * force + rate * reaction + supports;
+                    let terms = w.inertial[full.clone()].iter().zip(&system.constraint_force[full]);
+                    for (impulse, (first, reaction)) in impulse[unknown..unknown + len].iter_mut().zip(terms)
+                    {
+                        *impulse = first + rate * reaction;
                     }
                 }
             },
@@ -146,9 +161,8 @@ impl Symplectic<'_> {
         )?;
         if !self.project {
             // (53b) itself.
-            for (k, &i) in system.mechanics.free().iter().enumerate() {
-                let impulse = 0.5 * h * w.force[i] + system.constraint_force[i] / h;
-                state.memory[k] = system.inertia.row(i, &w.delta) / h + impulse;
+            for ((kept, p), &i) in state.memory.iter_mut().zip(&w.p).zip(system.mechanics.free()) {
+                *kept = p + rate * system.constraint_force[i];
             }
         }
         self.previous.set(state, h, &w.delta, &w.v_end);
