@@ -3,11 +3,12 @@
 //! - `stepping`: remedies of a time step, tolerance of explicit ones;
 //! - `eigen`: dense or sparse eigenpairs, the limit of zero;
 //! - `equilibrium`: tolerance of forward statics, steps of continuation;
-//! - `homotopy`: tolerances of the paths to all equilibria.
+//! - `homotopy`: settings of the paths to all equilibria; `loops`: of monodromy loops and certificates.
 
 mod eigen;
 mod equilibrium;
 mod homotopy;
+mod loops;
 mod stepping;
 
 use comfy_table::{Table, presets};
@@ -16,7 +17,13 @@ use crate::TaskError;
 
 /// One table per setting, its title before the colon as a heading.
 pub(crate) fn section() -> Result<String, TaskError> {
-    let tables = [stepping::tables()?, eigen::tables()?, equilibrium::tables()?, homotopy::tables()?];
+    let tables = [
+        stepping::tables()?,
+        eigen::tables()?,
+        equilibrium::tables()?,
+        homotopy::tables()?,
+        loops::tables()?,
+    ];
     let sections = tables.into_iter().flatten().map(|(title, table)| {
         let (heading, rest) = title.split_once(": ").unwrap_or((title, ""));
         let mut rest = rest.to_string();

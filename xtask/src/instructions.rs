@@ -21,7 +21,7 @@ use crate::bench::rustc;
 use crate::bench::scene::Scene;
 use crate::bench::scheme::{Dial, SCHEMES};
 use crate::{TaskError, root};
-use features::Watched;
+use features::{Variant, Watched};
 
 /// Where counts are stored.
 const BASELINE: &str = "xtask/instructions.json";
@@ -166,17 +166,29 @@ pub(crate) fn in_child() -> Result<bool, TaskError> {
         }
     }
     for variant in features::variants()? {
-        let (mut stepper, (q, v)) = (Watched::new(&variant)?, variant.model.start());
-        let mut state = stepper.start(0.0, &q, &v)?;
-        for _ in 0..BEFORE {
-            stepper.step(&mut state, Dial::PAPER.step())?;
-        }
-        counted_steps(&mut stepper, &mut state, FEATURE_STEPS)?;
+        let stepper = step_variant(&variant)?;
         // What was seen must be used.
         assert!(stepper.seen.is_finite());
         println!("{FEATURE_STEPS}\t{}\t{}", features::GROUP, variant.name);
     }
     Ok(true)
+}
+
+/// The counted steps of a variant, after some others.
+fn step_variant(variant: &Variant) -> Result<Watched<'_>, TaskError> {
+    let mut stepper = Watched::new(variant)?;
+    let mut state = stepper.begin()?;
+    for _ in 0..BEFORE {
+        stepper.step(&mut state, Dial::PAPER.step())?;
+    }
+    stepper.iterations = 0;
+    counted_steps(&mut stepper, &mut state, FEATURE_STEPS)?;
+    Ok(stepper)
+}
+
+/// Newton iterations in a counted step of a variant.
+pub(crate) fn iterations(variant: &Variant) -> Result<f64, TaskError> {
+    Ok(f64::from(step_variant(variant)?.iterations) / f64::from(FEATURE_STEPS))
 }
 
 /// What callgrind counts: found by its name, so it must stay a function.

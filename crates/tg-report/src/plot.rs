@@ -67,6 +67,19 @@ pub struct Series {
 }
 
 impl Plot {
+    /// Curves with an abscissa each ([`Series::over`]), by powers of ten both ways.
+    pub fn log_log(title: impl Into<String>, x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self {
+            title: title.into(),
+            kind: PlotKind::Lines,
+            x: x.logarithmic(),
+            y: y.logarithmic(),
+            time: false,
+            at: Vec::new(),
+            series,
+        }
+    }
+
     /// Checks that every curve has as many values as the abscissa.
     ///
     /// # Errors

@@ -16,6 +16,9 @@ use crate::method::Method;
 use crate::motion::Motion;
 use crate::subject::Subject;
 
+/// Rounding of positions per largest coordinate: the most that schemes at rest were seen to leave is a third of it.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+
 /// A method that reaches an accuracy.
 #[derive(Clone, Debug, Serialize)]
 pub struct Choice {
@@ -42,7 +45,7 @@ pub struct Tried {
 /// Under error control steps are at most as long as the method's.
 ///
 /// # Errors
-/// Nothing that was tried reaches the accuracy, or the trials were cancelled.
+/// The accuracy is below rounding, nothing that was tried reaches it, or the trials were cancelled.
 pub fn choose<const D: usize>(
     subject: &Subject<'_, D>,
     accuracy: f64,
@@ -50,6 +53,12 @@ pub fn choose<const D: usize>(
 ) -> Result<Choice, ChoiceError> {
     if !(accuracy.is_finite() && accuracy > 0.0) {
         return Err(ChoiceError::Accuracy(accuracy));
+    }
+    let largest =
+        subject.model().initial_coordinates().iter().fold(0.0_f64, |largest, q| largest.max(q.abs()));
+    let rounding = ROUNDING * largest;
+    if accuracy < rounding {
+        return Err(ChoiceError::BelowRounding { accuracy, rounding });
     }
     if method.scheme.controls_error() {
         tolerance::choose(subject, accuracy, method)

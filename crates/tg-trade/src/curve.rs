@@ -96,6 +96,11 @@ impl Curve {
         }
         curve
     }
+
+    /// Processor times \[s\] and a quantity's errors, from coarse to fine.
+    pub fn points(&self, quantity: Quantity) -> (Vec<f64>, Vec<f64>) {
+        self.rungs.iter().map(|rung| (rung.seconds, rung.errors[quantity])).unzip()
+    }
 }
 
 /// The motion, of the fastest of some runs.

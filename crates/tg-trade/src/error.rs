@@ -32,6 +32,16 @@ pub enum ChoiceError {
     /// The accuracy is not a positive number.
     #[error("the accuracy is {0} m; it must be positive and finite")]
     Accuracy(f64),
+    /// Rounding alone is more.
+    #[error(
+        "an error of {accuracy} m is below what rounding may leave of these positions, {rounding:.0e} m; ask for more than that"
+    )]
+    BelowRounding {
+        /// What was asked for \[m\].
+        accuracy: f64,
+        /// The rounding \[m\].
+        rounding: f64,
+    },
     /// A trial took longer than it was given; finer ones would, too.
     #[error(transparent)]
     TooLong(TrialError),

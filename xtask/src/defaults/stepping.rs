@@ -19,15 +19,53 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
             remedies()?,
         ),
         (
-            "Tolerance of the explicit pairs: tower UN and US, 1 s; distance of triangle 3 from the run at 1e-12",
+            "Most iterations: the same, and with five times the step, by the iterations after which a step is divided",
+            most_iterations()?,
+        ),
+        (
+            "Tolerance of the explicit pairs: tower UN and US, 1 s in two calls; distance of triangle 3 from the run at 1e-12",
             explicit()?,
         ),
+        ("Absolute tolerance: the same by its share of the relative one, 1e-6", absolute()?),
     ])
 }
 
-fn remedies() -> Result<Table, CaseError> {
+/// The tower with damped slacking cables.
+fn damped() -> Result<Tower, CaseError> {
     let law = CableLaw::slacking(100.0).with_damping(1.0);
-    let tower = Tower::new(&Choices { law, ..Choices::paper(Setup::Us) })?;
+    Tower::new(&Choices { law, ..Choices::paper(Setup::Us) })
+}
+
+fn most_iterations() -> Result<Table, CaseError> {
+    let tower = damped()?;
+    let mut table = plain([
+        "step [s]",
+        "most iterations",
+        "steps divided",
+        "forced",
+        "iterations per step",
+        "most in a step",
+    ]);
+    for h in [2e-3, 1e-2] {
+        for max_iterations in [4, 6, 8, 10, 20, 40] {
+            let options = NewtonOptions { max_iterations, ..NewtonOptions::default() };
+            let row = match path(&tower, h, 1, options) {
+                Ok((_, summary, most)) => [
+                    summary.divided.to_string(),
+                    summary.forced.to_string(),
+                    format!("{:.3}", summary.iterations as f64 / summary.steps as f64),
+                    most.to_string(),
+                ],
+                Err(_) => ["–".into(), "–".into(), "–".into(), "a step fails".into()],
+            };
+            table.add_row([vec![h.to_string(), max_iterations.to_string()], row.into()].concat());
+        }
+    }
+    Ok(table)
+}
+
+fn remedies() -> Result<Table, CaseError> {
+    let tower = damped()?;
     let (h, fine) = (2e-3, 64);
     let (best, _, _) = path(&tower, h / f64::from(fine), fine, NewtonOptions::default())?;
     let mut table = plain([
@@ -55,25 +93,28 @@ fn remedies() -> Result<Table, CaseError> {
     Ok(table)
 }
 
-fn explicit() -> Result<Table, CaseError> {
+/// Where the tower's third triangle is after 1 s in two calls.
+fn end(tower: &Tower, pair: EmbeddedPair, tolerances: Tolerances) -> Result<([f64; 2], Summary), CaseError> {
+    let mut stepper = RungeKutta::new(&tower.model, pair, tolerances)?;
+    let mut state = simulate::start(&tower.model, &mut stepper)?;
+    let summary = Run::new(0.5, 1.0).go(&mut stepper, &mut state)?;
+    Ok((tower.centre3.eval(&state.q).into(), summary))
+}
+
+/// Rows of both towers and pairs: words for the tolerances, evaluations, refusals, switches and the distance.
+fn pairs<const N: usize>(tolerances: [(String, Tolerances); N]) -> Result<Table, CaseError> {
     let mut table =
         plain(["setup", "pair", "tolerance", "evaluations", "refused", "switches", "distance [m]"]);
     for setup in [Setup::Un, Setup::Us] {
         let tower = Tower::new(&Choices::paper(setup))?;
-        let end = |pair, tolerance| -> Result<([f64; 2], Summary), CaseError> {
-            let mut stepper = RungeKutta::new(&tower.model, pair, Tolerances::relative(tolerance))?;
-            let mut state = simulate::start(&tower.model, &mut stepper)?;
-            let summary = Run::new(0.5, 1.0).go(&mut stepper, &mut state)?;
-            Ok((tower.centre3.eval(&state.q).into(), summary))
-        };
-        let (best, _) = end(EmbeddedPair::DormandPrince8, 1e-12)?;
+        let (best, _) = end(&tower, EmbeddedPair::DormandPrince8, Tolerances::relative(1e-12))?;
         for pair in [EmbeddedPair::DormandPrince5, EmbeddedPair::DormandPrince8] {
-            for tolerance in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10] {
-                let (found, summary) = end(pair, tolerance)?;
+            for (words, tolerances) in &tolerances {
+                let (found, summary) = end(&tower, pair, *tolerances)?;
                 table.add_row([
                     format!("{setup:?}"),
                     format!("{pair:?}"),
-                    format!("{tolerance:.0e}"),
+                    words.clone(),
                     summary.iterations.to_string(),
                     summary.rejected.to_string(),
                     summary.frozen.to_string(),
@@ -83,6 +124,18 @@ fn explicit() -> Result<Table, CaseError> {
         }
     }
     Ok(table)
+}
+
+fn explicit() -> Result<Table, CaseError> {
+    let tolerances = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-10];
+    pairs(tolerances.map(|tolerance| (format!("{tolerance:.0e}"), Tolerances::relative(tolerance))))
+}
+
+fn absolute() -> Result<Table, CaseError> {
+    pairs([1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6].map(|share| {
+        let default = Tolerances::default();
+        (format!("{share}"), Tolerances { absolute: share * default.relative, ..default })
+    }))
 }
 
 /// Triangle 3's mass centre at every `stride`-th step to 2 s, totals, and the most iterations of a step.

@@ -19,17 +19,17 @@ pub(super) struct Measured {
 const REFERENCE: f64 = 5.0;
 
 /// Name and simulated time \[s\]. Times are shortened where errors grow so fast that late positions say nothing of the step
-/// (the double pendulum is chaotic), and where a motion goes on as it began.
-const SCENES: [(&str, f64); 10] = [
+/// (the double pendulum is chaotic; so are the antiprism's struts under moments), and where a motion goes on as it began.
+/// Without `tower_modal`, which stands still.
+const SCENES: [(&str, f64); 9] = [
     ("double_pendulum", 3.0),
     ("tower", 1.0),
-    ("tower_modal", 2.0),
     ("deployable", 5.0),
     ("seismic", 2.0),
     ("prism_mast", 0.5),
     ("icosahedron", 1.0),
     ("antiprism_force", 2.0),
-    ("antiprism_moments", 2.0),
+    ("antiprism_moments", 1.0),
     ("mechanism", 5.0),
 ];
 

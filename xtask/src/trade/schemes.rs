@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use tg_report::{Axis, Plot, PlotKind, Series};
+use tg_report::{Axis, Plot, Series};
 use tg_scene::Scheme;
 use tg_trade::{Budget, Curve, Method, Quantity, Reference, cheapest};
 
@@ -99,17 +99,9 @@ fn failures(curves: &[Curve]) -> String {
 
 fn plot(name: &str, curves: &[Curve]) -> Plot {
     let series = curves.iter().filter(|curve| !curve.rungs.is_empty()).map(|curve| {
-        let at = curve.rungs.iter().map(|rung| 1e3 * rung.seconds).collect();
-        let errors = curve.rungs.iter().map(|rung| rung.errors[Quantity::Positions]).collect();
-        Series::over(curve.scheme.to_string(), at, errors)
+        let (seconds, errors) = curve.points(Quantity::Positions);
+        Series::over(curve.scheme.to_string(), seconds, errors)
     });
-    Plot {
-        title: name.replace('_', " "),
-        kind: PlotKind::Lines,
-        x: Axis::new("processor time", "ms").logarithmic(),
-        y: Axis::new("error of positions", "m").logarithmic(),
-        time: false,
-        at: Vec::new(),
-        series: series.collect(),
-    }
+    let (x, y) = (Axis::new("processor time", "s"), Axis::new("error of positions", "m"));
+    Plot::log_log(name.replace('_', " "), x, y, series.collect())
 }

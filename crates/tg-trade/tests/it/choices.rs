@@ -40,7 +40,9 @@ fn what_cannot_be_reached_is_refused() {
         let refused = choose(&subject, accuracy, &Method::fixed(Scheme::Symplectic, 1e-3));
         assert!(matches!(refused, Err(ChoiceError::Accuracy(_))), "{accuracy}");
     }
-    let beyond = choose(&subject, 1e-18, &Method::fixed(Scheme::RungeKutta8, 1e-2)).unwrap_err();
+    let below = choose(&subject, 1e-18, &Method::fixed(Scheme::RungeKutta8, 1e-2)).unwrap_err();
+    assert!(below.to_string().contains("rounding may leave of these positions, 6e-14 m"), "{below}");
+    let beyond = choose(&subject, 1e-13, &Method::fixed(Scheme::RungeKutta8, 1e-2)).unwrap_err();
     assert!(matches!(beyond, ChoiceError::Unreached { .. }), "{beyond}");
     assert!(beyond.to_string().contains("tolerance down to 1e-13"), "{beyond}");
     let hurried = subject.limited(1e-9);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use serde_json::Value;
-use tg_report::{Axis, Channel, Plot, PlotKind, Series, Table, write_file};
+use tg_report::{Axis, Channel, Plot, Series, Table, write_file};
 use tg_trade::{Curve, Quantity};
 
 use super::Measured;
@@ -30,22 +30,12 @@ pub(super) fn write(folder: &Path, document: &Value, measured: &Measured) -> Res
 /// Error of a quantity over processor time, a curve for each scheme.
 fn plot(curves: &[Curve], quantity: Quantity) -> Plot {
     let series = curves.iter().filter(|curve| !curve.rungs.is_empty()).map(|curve| {
-        let at = curve.rungs.iter().map(|rung| 1e3 * rung.seconds).collect();
-        Series::over(
-            curve.scheme.to_string(),
-            at,
-            curve.rungs.iter().map(|rung| rung.errors[quantity]).collect(),
-        )
+        let (seconds, errors) = curve.points(quantity);
+        Series::over(curve.scheme.to_string(), seconds, errors)
     });
-    Plot {
-        title: format!("Error of {quantity} against processor time"),
-        kind: PlotKind::Lines,
-        x: Axis::new("processor time", "ms").logarithmic(),
-        y: Axis::new(format!("error of {quantity}"), quantity.unit()).logarithmic(),
-        time: false,
-        at: Vec::new(),
-        series: series.collect(),
-    }
+    let x = Axis::new("processor time", "s");
+    let y = Axis::new(format!("error of {quantity}"), quantity.unit());
+    Plot::log_log(format!("Error of {quantity} against processor time"), x, y, series.collect())
 }
 
 /// A row for each setting; schemes by their place in the list of all.
