@@ -13,7 +13,8 @@ use crate::stationarity::Stationarity;
 /// Settings of the search.
 #[derive(Clone, Debug)]
 pub struct EquilibriaOptions {
-    /// More paths than this are refused, with the number that would be needed.
+    /// More paths than this are refused, with the number that would be needed. A millisecond each for a mechanism of the
+    /// plane (docs/accuracy-and-speed.md, "Predictor of paths"), the default is a minute or less.
     pub max_paths: u64,
     /// Decides all random numbers.
     pub seed: u64,

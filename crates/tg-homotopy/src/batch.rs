@@ -26,7 +26,8 @@ pub struct PathOptions {
     pub tracker: TrackerOptions,
     /// Ends.
     pub endgame: EndgameOptions,
-    /// How often suspicious paths are tracked again, each time with tighter settings.
+    /// How often suspicious paths are tracked again, each time with tighter settings; none of a mechanism's had to be
+    /// (docs/accuracy-and-speed.md, "Paths followed again").
     pub retracks: u32,
 }
 

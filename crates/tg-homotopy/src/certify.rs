@@ -23,7 +23,8 @@ use crate::tracker::distance;
 pub struct CertifyOptions {
     /// What real means; nothing is said about reality without it.
     pub conjugation: Option<Conjugation>,
-    /// Refinement may move a point by so much, relative to its norm; one that moves more was no approximate solution.
+    /// Refinement may move a point by so much, relative to its norm; one that moves more was no approximate solution
+    /// (docs/accuracy-and-speed.md, "Refinement of certificates").
     pub largest_move: f64,
 }
 

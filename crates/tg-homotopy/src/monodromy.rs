@@ -26,13 +26,14 @@ const SEED_STEP: f64 = 1e-6;
 pub struct MonodromyOptions {
     /// Decides the loops.
     pub seed: u64,
-    /// Stop after so many loops in a row without a new solution.
+    /// Stop after so many loops in a row without a new solution. After one, three of ten searches were incomplete, after
+    /// three none (docs/accuracy-and-speed.md, "Loops of monodromy").
     pub fruitless_loops: usize,
     /// Stop when so many solutions are known, if given.
     pub target: Option<usize>,
-    /// Most loops.
+    /// Most loops: ten times what the searches of "Loops of monodromy" took.
     pub loops: usize,
-    /// Size of the loops relative to the parameters.
+    /// Size of the loops relative to the parameters (docs/accuracy-and-speed.md, "Loops of monodromy").
     pub radius: f64,
     /// How paths are followed.
     pub paths: PathOptions,

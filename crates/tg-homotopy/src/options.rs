@@ -9,15 +9,17 @@ pub struct TrackerOptions {
     /// Largest last Newton step relative to ‖x‖. Newton's method squares it, so the point is better than that
     /// (docs/accuracy-and-speed.md, "Corrector of paths").
     pub corrector_tolerance: f64,
-    /// Newton steps before the step in t is halved.
+    /// Newton steps before the step in t is halved: two do, the third is in reserve (docs/accuracy-and-speed.md, "Corrections on
+    /// paths").
     pub corrections: usize,
-    /// First step in t.
+    /// First step in t (docs/accuracy-and-speed.md, "First step on paths").
     pub first_step: f64,
-    /// Largest step in t.
+    /// Largest step in t: longer ones are refused more often (docs/accuracy-and-speed.md, "Longest step on paths").
     pub largest_step: f64,
-    /// Smallest step relative to |t|, in double-double; a smaller one ends the path as failed.
+    /// Smallest step relative to |t|, in double-double; a smaller one ends the path as failed. A millionth of the step at which
+    /// the first paths were lost (docs/accuracy-and-speed.md, "Shortest step on paths").
     pub smallest_step: f64,
-    /// Most steps of one path.
+    /// Most steps of one path: a hundred times what those of a mechanism take (docs/accuracy-and-speed.md, "Steps of a path").
     pub steps: usize,
     /// ‖J⁻¹‖ of the equilibrated Jacobian from which double-double is used: `corrector_tolerance` over the unit
     /// roundoff would be the strict bound, observed stagnation of the corrector raises the precision earlier (docs/accuracy-and-speed.md,
@@ -57,21 +59,25 @@ impl TrackerOptions {
 /// Settings of the Cauchy endgame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndgameOptions {
-    /// |t| from which patches stay fixed and t = 0 is approached.
+    /// |t| from which patches stay fixed and t = 0 is approached (docs/accuracy-and-speed.md, "Start of the endgame").
     pub start: f64,
-    /// |t| at which a path that has not reached t = 0 by ordinary steps is taken round it.
+    /// |t| at which a path that has not reached t = 0 by ordinary steps is taken round it. Far out many turns are in vain
+    /// (docs/accuracy-and-speed.md, "First turn of the endgame").
     pub first_radius: f64,
-    /// Samples per turn.
+    /// Samples per turn (docs/accuracy-and-speed.md, "Samples of a turn").
     pub samples: usize,
-    /// Largest winding number tried.
+    /// Largest winding number tried. Mechanisms have ends of two turns (docs/accuracy-and-speed.md, "Turns of the endgame"), the
+    /// polynomials of the tests more.
     pub largest_winding: usize,
-    /// Distance, relative to how far it went, within which a path is back where it started.
+    /// Distance, relative to how far it went, within which a path is back where it started (docs/accuracy-and-speed.md,
+    /// "Closure of a turn").
     pub closure: f64,
-    /// Distance (relative to ‖x‖) of two successive estimates that are accepted.
+    /// Distance (relative to ‖x‖) of two successive estimates that are accepted (docs/accuracy-and-speed.md, "Agreement of the
+    /// endgame").
     pub tolerance: f64,
-    /// Smallest |t|.
+    /// Smallest |t| (docs/accuracy-and-speed.md, "Smallest turn").
     pub smallest_radius: f64,
-    /// |X₀|/‖X‖ of a group below which a regular end is at infinity.
+    /// |X₀|/‖X‖ of a group below which a regular end is at infinity (docs/accuracy-and-speed.md, "Regular ends at infinity").
     pub infinity: f64,
     /// The same for a singular end, which is known less well (docs/accuracy-and-speed.md, "Ends of paths at infinity").
     pub singular_infinity: f64,

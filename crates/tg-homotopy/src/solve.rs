@@ -28,7 +28,8 @@ pub struct SolveOptions {
     pub start: Start,
     /// Decides all random numbers.
     pub seed: u64,
-    /// More paths than this are an error before anything is tracked.
+    /// More paths than this are an error before anything is tracked. A mechanism's path takes a millisecond
+    /// (docs/accuracy-and-speed.md, "Predictor of paths"), so that the default is a minute or two.
     pub max_paths: u64,
     /// How paths are followed.
     pub paths: PathOptions,

@@ -23,15 +23,17 @@ const LEAST_ERROR: f64 = 1e-4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Error of a substep relative to each coordinate and velocity. Of the planar tower's lowest triangle the default 1e-6
-    /// leaves 2e-9 m after 1 s, with slacking cables 8e-9 m, in 2300 and 2800 evaluations of order 5; 1e-4 leaves 2e-7 and
+    /// leaves 2e-9 m after 1 s, with slacking cables 1e-8 m, in 2200 and 2700 evaluations of order 5; 1e-4 leaves 3e-7 and
     /// 7e-7 m for half of that (docs/accuracy-and-speed.md, "Tolerance of the explicit pairs").
     pub relative: f64,
     /// Error of a substep that is allowed to any coordinate, per size of the structure, and to any velocity, per its speed, in
     /// the root mean square of all. The default is 1e-8, a hundredth of the relative one: coordinates and velocities near zero
-    /// are not asked for more digits than the others.
+    /// are not asked for more digits than the others. A larger share is less exact, a smaller one not more so
+    /// (docs/accuracy-and-speed.md, "Absolute tolerance").
     pub absolute: f64,
     /// Substeps, accepted or not, after which a step is given up: an explicit scheme on a stiff structure would go on for
-    /// very long. The default 100 000 is a second or more of computing for a small structure.
+    /// very long. The default 100 000 is a second or more of computing for a small structure, and a hundred times what the
+    /// tower takes for half a second at 1e-10 (docs/accuracy-and-speed.md, "Tolerance of the explicit pairs").
     pub most_substeps: u32,
 }
 

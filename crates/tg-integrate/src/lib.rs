@@ -25,23 +25,15 @@
 //! |---|---|---|
 //! | (38) | the equations of motion | [`tg_model::Mechanics`] |
 //! | (49), (53), (54), (55), Algorithm 1 | the modified symplectic scheme | [`Symplectic`] |
-//! | \[38\] | generalised-α for constrained systems (Arnold, Brüls) | [`GeneralizedAlpha`] |
 //! | | its symmetric compositions of order 4 and 6 (Suzuki; Kahan, Li) | [`Composition`] |
+//! | \[38\] | generalised-α for constrained systems (Arnold, Brüls) | [`GeneralizedAlpha`] |
 //! | (38) | leapfrog with exact constraints (RATTLE) | [`Leapfrog`] |
 //! | (38), differentiated twice | explicit pairs of order 5(4) and 8(5,3) (Dormand, Prince) | [`RungeKutta`] |
 //!
 //! Which one: [`Leapfrog`] for a draft, or [`RungeKutta`] under error control, where cables are neither stiff nor hard
 //! damped for the step that the motion asks for; [`Symplectic`] where they are, or where energy must not drift over very
-//! many periods; [`Composition`] for the latter with few digits lost. Half a second of a guyed mast of eight stages:
-//!
-//! | scheme | step or tolerance | largest error \[m\] | force evaluations |
-//! |---|---|---|---|
-//! | [`Leapfrog`] | 1 ms | 9e-6 | 500 |
-//! | [`Symplectic`] | 1 ms | 2.6e-5 | 2300 |
-//! | [`Composition`], order 4 / 6 | 4 ms | 1.0e-6 / 1.8e-8 | – |
-//! | [`RungeKutta`], order 5 / 8 | fixed 4 ms | 5.0e-9 / 4e-14 | 750 / 1500 |
-//! | [`RungeKutta`], order 5 / 8 | 1e-4 | 3.2e-7 / 1.1e-9 | 450 / 515 |
-//! | [`RungeKutta`], order 5 / 8 | 1e-8 | 2.2e-11 / 1.4e-12 | 2550 / 1283 |
+//! many periods; [`Composition`] for the latter with few digits lost. Which error costs what time on nine scenes:
+//! docs/accuracy-and-speed.md, "Schemes".
 //!
 //! A [`State`] is plain data and a checkpoint: serialised and read back exactly, a run continues bit for bit.
 

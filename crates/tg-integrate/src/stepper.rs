@@ -28,10 +28,11 @@ pub trait Stepper {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonOptions {
     /// Scaled residual to reach: dynamic rows by their largest term, constraints by the size of their member.
-    /// On the planar tower the default 1e-12 leaves only rounding and costs 4.2 iterations a step, most of them with kept
-    /// factors; 1e-8 costs 3.9 and leaves 7e-10 m after 2 s, 1e-6 costs 2.6 and leaves 9e-6 m; on a mast: docs/accuracy-and-speed.md, "Newton tolerance".
+    /// The default 1e-12 leaves only rounding. A looser one saves few iterations, most of which are with kept factors, and what
+    /// it leaves does not fall with h (docs/accuracy-and-speed.md, "Newton tolerance").
     pub tolerance: f64,
-    /// Iterations before an attempt at a step is given up: several times what a step that converges needs.
+    /// Iterations before an attempt at a step is given up: twice what a step that converges needs (docs/accuracy-and-speed.md,
+    /// "Most iterations").
     pub max_iterations: u32,
     /// Iterations after which the symplectic scheme freezes the active set of slacking cables. From 3 to 10 the results
     /// are the same (docs/accuracy-and-speed.md, "Steps without a solution").

@@ -9,7 +9,7 @@ use crate::values;
 
 /// Spectral radius of generalised-α at infinity that a scene need not say: docs/accuracy-and-speed.md, "Spectral radius".
 const SPECTRAL_RADIUS: f64 = 0.7;
-/// Pictures per second that a scene need not say.
+/// Pictures per second that a scene need not say: motion to the eye, no matter of accuracy.
 const FRAME_RATE: f64 = 50.0;
 
 /// The numbers of a scene's run section.

@@ -16,11 +16,13 @@ pub struct ForwardOptions {
     /// Residual force per largest force at which forces balance. Rounding leaves some 1e-15; 1e-12 is reached by every
     /// structure in the tests (docs/accuracy-and-speed.md, "Tolerance of forward statics").
     pub tolerance: f64,
-    /// Newton iterations per load step. From near, four or five do; a far start takes some tens.
+    /// Newton iterations per load step. From near, three to eleven do; from far, relaxation takes over
+    /// (docs/accuracy-and-speed.md, "Newton's method and relaxation").
     pub max_iterations: u32,
     /// Which equilibrium is wanted.
     pub seek: Seek,
-    /// Whether dynamic relaxation may take over.
+    /// Whether dynamic relaxation may take over: it finds equilibria that Newton's method alone does not
+    /// (docs/accuracy-and-speed.md, "Newton's method and relaxation").
     pub relax: bool,
     /// Load steps of [`crate::Forward::solve_from`].
     pub load_steps: u32,

@@ -17,8 +17,8 @@ use crate::spectrum::{Counts, EigenOptions, EigenPair, Method, Metric, Sign, Spe
 use crate::tangent::Tangent;
 
 /// Free coordinates up to which [`Method::Automatic`] reduces to dense matrices. Both are equally fast near 100
-/// (docs/accuracy-and-speed.md, "Dense or sparse eigenpairs"); up to here the dense method takes less than twice as long, and has no shifts at which factors may not
-/// tell the inertia.
+/// (docs/accuracy-and-speed.md, "Dense or sparse eigenpairs"); up to here the dense method takes less than three times as long,
+/// and has no shifts at which factors may not tell the inertia.
 const DENSE_LIMIT: usize = 220;
 
 /// The lowest eigenpairs at a configuration.

@@ -21,7 +21,7 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, CaseError> {
             tolerances()?,
         ),
         (
-            "Newton's method and relaxation: the same with the default tolerance; 60 iterations are the most",
+            "Newton's method and relaxation: the same with the default settings: at most 60 iterations, and relaxation where they do not suffice; a distance that is left is another equilibrium",
             far()?,
         ),
         (
@@ -110,7 +110,7 @@ fn steps(values: &[f64], set: impl Fn(&mut ContinuationOptions, f64)) -> Result<
     for &value in values {
         let mut options = ContinuationOptions::default();
         set(&mut options, value);
-        let setting = if value < 1e-3 { format!("{value:.0e}") } else { value.to_string() };
+        let setting = if value < 5e-4 { format!("{value:.0e}") } else { value.to_string() };
         let row = match continuation(&family, &q, (0.95, 0.8), &options) {
             Ok(branch) => {
                 let error =

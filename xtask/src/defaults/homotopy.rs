@@ -19,94 +19,98 @@ type Setting = (&'static str, fn(&mut PathOptions, f64), &'static [f64]);
 /// First the tracker's, then the endgame's.
 const SETTINGS: [Setting; 18] = [
     (
-        "Predictor of paths: by the predictor's tolerance",
+        "Predictor of paths: all equilibria of twenty random mechanisms, by the predictor's tolerance",
         |paths, x| paths.tracker.predictor_tolerance = x,
         &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7],
     ),
     (
-        "Corrector of paths: by the corrector's tolerance",
+        "Corrector of paths: the same by the corrector's tolerance",
         |paths, x| paths.tracker.corrector_tolerance = x,
         &[1e-5, 1e-7, 1e-9, 1e-11],
     ),
     (
-        "Corrections on paths: by the Newton steps before a step is halved",
+        "Corrections on paths: the same by the Newton steps before a step is halved",
         |paths, x| paths.tracker.corrections = x as usize,
         &[1.0, 2.0, 3.0, 5.0],
     ),
     (
-        "First step on paths: by the first step in t",
+        "First step on paths: the same by the first step in t",
         |paths, x| paths.tracker.first_step = x,
         &[2e-3, 0.02, 0.1],
     ),
     (
-        "Longest step on paths: by the longest step in t",
+        "Longest step on paths: the same by the longest step in t",
         |paths, x| paths.tracker.largest_step = x,
         &[0.05, 0.2, 0.5],
     ),
     (
-        "Shortest step on paths: by the shortest step, relative to t, before a path is given up",
+        "Shortest step on paths: the same by the shortest step, relative to t, before a path is given up",
         |paths, x| paths.tracker.smallest_step = x,
         &[1e-2, 1e-3, 1e-4, 1e-10],
     ),
     (
-        "Steps of a path: by the most that it may take",
+        "Steps of a path: the same by the most that it may take",
         |paths, x| paths.tracker.steps = x as usize,
         &[50.0, 100.0, 200.0, 20_000.0],
     ),
     (
-        "Double-double on paths: by the growth from which double-double is used",
+        "Double-double on paths: the same by the growth from which double-double is used",
         |paths, x| paths.tracker.double_limit = x,
         &[1e3, 1e5, 1e7, 1e9, 1e11],
     ),
     (
-        "Start of the endgame: by the t from which on patches stay fixed",
+        "Start of the endgame: the same by the t from which on patches stay fixed",
         |paths, x| paths.endgame.start = x,
         &[0.01, 0.1, 0.3],
     ),
     (
-        "First turn of the endgame: by its radius",
+        "First turn of the endgame: the same by its radius",
         |paths, x| paths.endgame.first_radius = x,
         &[1e-2, 1e-4, 1e-6],
     ),
-    ("Samples of a turn: by their number", |paths, x| paths.endgame.samples = x as usize, &[4.0, 8.0, 16.0]),
     (
-        "Turns of the endgame: by the largest winding number that is tried",
+        "Samples of a turn: the same by their number",
+        |paths, x| paths.endgame.samples = x as usize,
+        &[4.0, 8.0, 16.0],
+    ),
+    (
+        "Turns of the endgame: the same by the largest winding number that is tried",
         |paths, x| paths.endgame.largest_winding = x as usize,
         &[1.0, 2.0, 4.0, 16.0],
     ),
     (
-        "Closure of a turn: by the distance within which a path is back",
+        "Closure of a turn: the same by the distance within which a path is back",
         |paths, x| paths.endgame.closure = x,
         &[1e-1, 1e-3, 1e-5],
     ),
     (
-        "Agreement of the endgame: by the distance of two estimates that are accepted",
+        "Agreement of the endgame: the same by the distance of two estimates that are accepted",
         |paths, x| paths.endgame.tolerance = x,
         &[1e-5, 1e-7, 1e-9, 1e-11],
     ),
     (
-        "Smallest turn: by the t at which the endgame gives up",
+        "Smallest turn: the same by the t at which the endgame gives up",
         |paths, x| paths.endgame.smallest_radius = x,
         &[1e-6, 1e-12, 1e-26],
     ),
     (
-        "Regular ends at infinity: by the closeness to infinity of a regular end",
+        "Regular ends at infinity: the same by the closeness to infinity of a regular end",
         |paths, x| paths.endgame.infinity = x,
         &[1e-8, 1e-11, 1e-14],
     ),
     (
-        "Ends of paths at infinity: by the closeness to infinity of a singular end",
+        "Ends of paths at infinity: the same by the closeness to infinity of a singular end",
         |paths, x| paths.endgame.singular_infinity = x,
         &[1e-4, 1e-7, 1e-10],
     ),
     (
-        "Paths followed again: by how often, where one failed or met another",
+        "Paths followed again: the same by how often, where one failed or met another",
         |paths, x| paths.retracks = x as u32,
         &[0.0, 1.0, 3.0],
     ),
 ];
 
-/// One table per setting, of all equilibria of twenty random mechanisms.
+/// One table per setting.
 pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, TaskError> {
     SETTINGS.into_iter().map(|(title, set, values)| Ok((title, table(values, set)?))).collect()
 }
@@ -129,7 +133,11 @@ fn table(values: &[f64], set: impl Fn(&mut PathOptions, f64)) -> Result<Table, T
             unproved += report.rejected + report.undecided;
         }
         table.add_row([
-            if value < 0.1 && value > 0.0 { format!("{value:.0e}") } else { value.to_string() },
+            if (0.1..1e3).contains(&value) || value == 0.0 {
+                value.to_string()
+            } else {
+                format!("{value:.0e}")
+            },
             paths.to_string(),
             format!("{:.0}", 1e6 * start.elapsed().as_secs_f64() / paths as f64),
             certified.to_string(),

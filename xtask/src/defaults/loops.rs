@@ -29,13 +29,14 @@ pub(super) fn tables() -> Result<Vec<(&'static str, Table)>, HomotopyError> {
     ])
 }
 
-/// Two quartics whose coefficients are the parameters.
+/// Two quartics: all coefficients but one are parameters.
 fn quartics() -> Result<PolynomialSystem, HomotopyError> {
     let mut b = SystemBuilder::new();
     let (x, y) = (b.unknown("x"), b.unknown("y"));
-    for k in 0..2 {
-        let mut quartic = b.parameter(format!("c{k}"));
-        for (m, n) in (0..=4).flat_map(|m| (0..=4 - m).map(move |n| (m, n))).skip(1) {
+    for (k, leading) in [(4, 0), (0, 4)].into_iter().enumerate() {
+        // With a fixed coefficient the size of the parameters means something.
+        let mut quartic = x.pow(leading.0) * y.pow(leading.1);
+        for (m, n) in (0..=4).flat_map(|m| (0..=4 - m).map(move |n| (m, n))).filter(|&at| at != leading) {
             quartic = quartic + b.parameter(format!("c{k} {m} {n}")) * x.pow(m) * y.pow(n);
         }
         b.equation(quartic);

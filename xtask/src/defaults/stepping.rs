@@ -134,7 +134,7 @@ fn explicit() -> Result<Table, CaseError> {
 fn absolute() -> Result<Table, CaseError> {
     pairs([1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6].map(|share| {
         let default = Tolerances::default();
-        (format!("{share}"), Tolerances { absolute: share * default.relative, ..default })
+        (format!("{share:.0e}"), Tolerances { absolute: share * default.relative, ..default })
     }))
 }
 
