@@ -11,7 +11,8 @@ use crate::system::{Factors, Failure, larger};
 const FASTEST: f64 = 0.02;
 /// What the last correction, whose residual is not looked at, is to leave of the tolerance.
 const POLISHED: f64 = 1e-2;
-/// A residual that falls less than this in an iteration asks for new factors.
+/// A residual that falls less than this in an iteration asks for new factors, unless it fell so much more in the one before: a
+/// correction of the constraints, whose residual stood out, shows that of the dynamic rows.
 const SLOW: f64 = 0.1;
 /// One that falls less than this with new factors is rounding.
 const STANDS: f64 = 0.5;
@@ -31,7 +32,7 @@ impl Symplectic<'_> {
         let resolution = 4.0 * f64::EPSILON * largest(&state.q);
         let mut has_factors = self.recall(state, h);
         let (mut frozen, mut iterations, mut factored) = (false, 0, 0);
-        let (mut before, mut slowest) = (f64::INFINITY, FASTEST);
+        let (mut before, mut fell_before, mut slowest) = (f64::INFINITY, 1.0_f64, FASTEST);
         let mut correction = f64::INFINITY;
         loop {
             let scale = self.residual(state, h, frozen);
@@ -85,7 +86,9 @@ impl Symplectic<'_> {
                 self.system.mechanics.active_set(at, taut);
             }
             // New factors serve until nothing falls any more.
-            has_factors &= fell <= SLOW || iterations == 0 || (is_small && factored > 0);
+            let falls = iterations == 0 || fell <= SLOW || fell * fell_before <= SLOW * SLOW;
+            has_factors &= falls || (is_small && factored > 0);
+            fell_before = if iterations == 0 { 1.0 } else { fell };
             before = residual;
             iterations += 1;
             let solved = if has_factors {

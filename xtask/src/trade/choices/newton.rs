@@ -27,8 +27,8 @@ pub(super) fn tolerance() -> Result<Topic, TaskError> {
     Ok(Topic {
         title: "Newton tolerance",
         text: "Guyed mast of 8 stages, 0.512 s in steps of 1 ms, which by themselves are off by 2e-5 m. Distances are from \
-               the same steps at 1e-14: what the tolerance alone does. 1e-12, the default, leaves rounding; a looser \
-               tolerance saves a tenth at most, and errors of the iteration, unlike those of the step, do not fall with h.",
+               the same steps at 1e-14: what the tolerance alone does. 1e-12, the default, leaves rounding; a looser one \
+               saves iterations with kept factors only, and errors of the iteration, unlike those of the step, do not fall with h.",
         table: against("tolerance", &costs, &exact),
     })
 }
@@ -78,7 +78,8 @@ pub(super) fn projection() -> Result<Topic, TaskError> {
         title: "Projection",
         text: "The momentum projected onto the constraints at the end of each step, or carried as (53b) prints it. Planar \
                tower UN on shaking ground, 0.512 s, errors against the true motion. Without damping tensions do not depend \
-               on velocities; the energy does, and the momentum as printed pollutes it.",
+               on velocities, and the state's velocities are projected either way: the choice shows in the multipliers (tests of \
+               `tg-integrate`).",
         table: against("momentum", &costs, &truth),
     })
 }
