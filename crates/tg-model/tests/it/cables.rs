@@ -225,3 +225,11 @@ fn only_damped_laws_have_a_velocity_tangent() {
         assert_eq!(model.damping_pattern().is_empty(), !damped);
     }
 }
+
+#[test]
+fn a_cable_without_length_lengthens_as_fast_as_its_ends_part() {
+    let (model, cable) = tied(CableLaw::linear(10.0));
+    let state = model.cable(cable, &[0.0; 4], &velocity(1.0), &[0.0]);
+    assert_eq!(state.length, 0.0);
+    assert_relative_eq!(state.rate, 50.0_f64.sqrt(), max_relative = 1e-15);
+}

@@ -238,3 +238,21 @@ fn a_constraint_that_nothing_free_can_change_is_named() {
     assert_eq!((list.len(), list[0].implied_by.len()), (1, 0));
     assert!(text.contains("rigidity u·u of \"strut\" is implied by the supports"), "{text}");
 }
+
+#[test]
+fn a_support_between_held_points_must_agree_with_them() {
+    // Both ends and the quarter point of a bar that is neither level nor upright, at heights 1, 3 and 1.5 m.
+    let held = |offset: f64| {
+        build::<2>(|b| {
+            let bar = b.bar("bar", 1.0, [0.0, 1.0], [1.0, 3.0])?;
+            b.support("low", bar.node(0), 1, 0.0)?;
+            b.support("high", bar.node(1), 1, 0.0)?;
+            b.support("between", bar.at([0.25, 1.5]), 1, offset)
+        })
+    };
+    assert!(held(0.0).is_ok());
+    let error = held(0.1).unwrap_err();
+    assert!(
+        matches!(&error, BuildError::UnsatisfiableConstraint { constraint, .. } if constraint.contains("between"))
+    );
+}
