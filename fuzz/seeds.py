@@ -3,6 +3,7 @@
 import json
 import pathlib
 import re
+import struct
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -63,8 +64,15 @@ def folders():
     return [bytes([number]) + content for number, content in enumerate(files)]
 
 
+def states():
+    """A byte for the scheme; two for a place and eight for its number. Place 0 is the time, those at the end are memory."""
+    numbers = [0.0, -1.0, 1e-300, 1e16, 1e300, 0.5]
+    edits = [struct.pack("<Hd", 7 * place, number) for place, number in enumerate(numbers)]
+    return [bytes([scheme]) + b"".join(edits[:count]) for scheme in range(8) for count in range(len(edits) + 1)]
+
+
 target, corpus = sys.argv[1], pathlib.Path(sys.argv[2])
-seeds = {"scene": scenes, "import": imports, "folder": folders}[target]()
+seeds = {"scene": scenes, "import": imports, "folder": folders, "state": states}[target]()
 for number, seed in enumerate(seeds):
     (corpus / f"seed-{number:03}").write_bytes(seed)
 print(f"{target}: {len(seeds)} seeds")

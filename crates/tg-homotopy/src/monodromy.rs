@@ -26,7 +26,7 @@ const SEED_STEP: f64 = 1e-6;
 pub struct MonodromyOptions {
     /// Decides the loops.
     pub seed: u64,
-    /// Stop after so many loops in a row without a new solution. After one, three of ten searches were incomplete, after
+    /// Stop after so many loops in a row without a new solution. After one, half of ten searches were incomplete, after
     /// three none (docs/accuracy-and-speed.md, "Loops of monodromy").
     pub fruitless_loops: usize,
     /// Stop when so many solutions are known, if given.

@@ -19,7 +19,7 @@ $ cargo xtask extremes            # --axis WORD for some of it, --quick without 
 
 /// The page.
 pub(super) fn page(found: &[Found]) -> String {
-    let mut text = HEAD.to_string();
+    let mut text = HEAD.to_string() + &summary(found);
     for found in found {
         let axis = &found.axis;
         // A string takes every write.
@@ -37,6 +37,36 @@ pub(super) fn page(found: &[Found]) -> String {
         }
     }
     text
+}
+
+/// How many answers of each axis were right, told, refused or none of these.
+fn summary(found: &[Found]) -> String {
+    let mut total = [0; 4];
+    let rows = found.iter().map(|found| {
+        let mut counts = [0; 4];
+        for (_, verdict) in &found.verdicts {
+            let column = match verdict {
+                Verdict::Right { .. } => 0,
+                Verdict::Told { .. } => 1,
+                Verdict::Refused(_) => 2,
+                Verdict::Wrong { .. } | Verdict::Panicked(_) | Verdict::Endless => 3,
+            };
+            counts[column] += 1;
+            total[column] += 1;
+        }
+        let title = format!("[{}](#{})", found.axis.title, anchor(found.axis.title));
+        [title].into_iter().chain(counts.map(|count| count.to_string())).collect()
+    });
+    let header = ["axis", "right", "told", "refused", "wrong, panic or endless"].map(String::from);
+    let rows = table(&header, &rows.collect::<Vec<_>>());
+    let [right, told, refused, wrong] = total;
+    format!("\n{right} answers are right, {told} told, {refused} refused, {wrong} none of these.\n\n{rows}")
+}
+
+/// What a heading is linked by.
+fn anchor(title: &str) -> String {
+    let kept = title.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.map(|c| if c == ' ' { '-' } else { c }).collect::<String>().to_lowercase()
 }
 
 /// A row; equal refusals share a note.
