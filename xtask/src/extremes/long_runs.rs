@@ -38,8 +38,8 @@ pub(super) fn axes() -> Vec<Axis> {
         },
         Axis {
             title: "Steps: memory",
-            setup: "The same; growth of the process's resident memory after a hundredth of the steps, in pages of 4 kB, less than \
-                    64, whatever else runs.",
+            setup: "The same; growth of the process's own memory after a hundredth of the steps, in pages of 4 kB, less than 64, \
+                    whatever else runs.",
             probes: probes(memory).collect(),
             cause: "",
         },
@@ -93,17 +93,19 @@ fn memory(scheme: Scheme, steps: u32) -> Verdict {
     let done = look(scheme, steps, |_, _| {
         seen += 1;
         if seen == steps / 100 {
-            early = resident_pages();
+            early = own_pages();
         } else if seen == steps {
-            last = resident_pages();
+            last = own_pages();
         }
     });
     let grown = done.and_then(|()| Ok((last? - early?).max(0.0)));
     Verdict::of(grown, 64.0)
 }
 
-/// Pages of the process that are in memory.
-fn resident_pages() -> Result<f64, TaskError> {
-    let statm = std::fs::read_to_string("/proc/self/statm")?;
-    Ok(statm.split_whitespace().nth(1).ok_or("no resident pages in /proc/self/statm")?.parse()?)
+/// Pages that the process has written to, counted page by page: those of `statm` are some dozens late, and code that is read
+/// from the disk is among them.
+fn own_pages() -> Result<f64, TaskError> {
+    let memory = std::fs::read_to_string("/proc/self/smaps_rollup")?;
+    let own = memory.lines().find_map(|line| line.strip_prefix("Anonymous:")?.strip_suffix("kB"));
+    Ok(own.ok_or("no anonymous memory in /proc/self/smaps_rollup")?.trim().parse::<f64>()? / 4.0)
 }
