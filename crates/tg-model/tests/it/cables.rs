@@ -233,3 +233,15 @@ fn a_cable_without_length_lengthens_as_fast_as_its_ends_part() {
     assert_eq!(state.length, 0.0);
     assert_relative_eq!(state.rate, 50.0_f64.sqrt(), max_relative = 1e-15);
 }
+
+#[test]
+fn forces_at_rest_length_are_known_no_better_than_those_of_a_taut_cable() {
+    let (model, _) = tied(CableLaw::linear(10.0));
+    let (q, v) = (model.initial_coordinates(), model.velocities_at_rest());
+    let scale = |rest: f64| model.force_scale(At { q: &q, v: &v, u: &[rest], taut: None });
+    assert_relative_eq!(scale(4.0), 10.0);
+    // 1e-4 κ l, and nothing of what is slack.
+    assert_relative_eq!(scale(5.0), 5e-3);
+    let (slack, _) = tied(CableLaw::slacking(10.0));
+    assert_eq!(slack.force_scale(At { q: &q, v: &v, u: &[6.0], taut: None }), 0.0);
+}

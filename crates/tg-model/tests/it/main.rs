@@ -17,6 +17,7 @@ mod reactions;
 mod redundancy;
 mod resultant;
 mod signal;
+mod singular_poses;
 mod sizes;
 mod support;
 mod tangents;

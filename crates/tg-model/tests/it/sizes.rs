@@ -218,3 +218,9 @@ fn the_force_scale_by_hand() {
     let gravity = |b: &mut ModelBuilder<2>, _: tg_model::MemberId| b.gravity([0.0, -80.0]).unwrap();
     close(scale(CableLaw::linear(100.0), 4.0, &gravity), 160.0);
 }
+
+#[test]
+fn the_size_of_a_structure_is_its_diagonal() {
+    let model = build::<2>(|b| b.bar("bar", 1.0, [1.0, 1.0], [4.0, 5.0]).map(drop)).unwrap();
+    assert!((model.size() - 5.0).abs() < 1e-15);
+}
