@@ -89,6 +89,20 @@ fn tangents_are_the_derivatives_of_the_forces() {
 }
 
 /// Power on a rigid motion with this spin and a velocity of the frame's origin.
+#[test]
+fn tangents_reach_a_member_behind_others() {
+    let mut r = Random::new(17);
+    let mut b = ModelBuilder::<3>::new();
+    for k in 0..3 {
+        let x = f64::from(k);
+        b.bar(&format!("bar {k}"), 1.0, [x, 0.0, 0.0], [x, 1.0, 0.0]).unwrap();
+    }
+    let pose = Spatial::pose([5.0, 0.0, 0.0], &mut r);
+    let id = b.member("body", member(CoordType::Ruvw, &mut r), pose).unwrap();
+    b.moment("turn", id, MomentAxes::Body, MOMENT, Signal::ramp(0.0, 2.0, 2.0)).unwrap();
+    check_tangent(&b.build().unwrap(), &mut r, false, "the fourth member");
+}
+
 fn power<const D: usize>(model: &Model<D>, id: MemberId, u: &[f64], spin: SMatrix<f64, D, D>) -> f64 {
     let q = model.initial_coordinates();
     let rest = vec![0.0; q.len()];

@@ -256,3 +256,34 @@ fn a_support_between_held_points_must_agree_with_them() {
         matches!(&error, BuildError::UnsatisfiableConstraint { constraint, .. } if constraint.contains("between"))
     );
 }
+
+#[test]
+fn the_worst_dropped_constraint_counts_per_size_wherever_it_stands() {
+    const L: f64 = 10.0;
+    // Two toggles that lie on lines: of each one rigidity is dropped.
+    let mut knees = Vec::new();
+    let model = build::<2>(|b| {
+        b.redundancies(Redundancies::Drop);
+        for (k, y) in [0.0, 5.0 * L].into_iter().enumerate() {
+            let pegs = [b.anchor(&format!("A{k}"), [-L, y])?, b.anchor(&format!("B{k}"), [L, y])?];
+            let left = b.bar(&format!("left {k}"), 1.0, [-L, y], [0.0, y])?;
+            let right = b.bar(&format!("right {k}"), 1.0, [L, y], [0.0, y])?;
+            b.joint(&format!("foot A{k}"), &[pegs[0].into(), left.node(0)], Share)?;
+            b.joint(&format!("foot B{k}"), &[pegs[1].into(), right.node(0)], Share)?;
+            b.joint(&format!("knee {k}"), &[left.node(1), right.node(1)], Share)?;
+            knees.push((left, y));
+        }
+        Ok(())
+    });
+    let model = model.unwrap();
+    assert_eq!(model.report().redundant.len(), 2);
+    for (left, y) in knees {
+        // Turned by 60° about A, the knee is √3 L from B: |..|² - L² = 2 L².
+        let mut q = model.initial_coordinates();
+        let tip = model.form(left.node(1)).unwrap().terms()[0].0 * 2;
+        (q[tip], q[tip + 1]) = (-0.5 * L, y + 0.75f64.sqrt() * L);
+        assert!((model.dropped_violation(&q) - 2.0).abs() < 1e-12, "{}", model.dropped_violation(&q));
+        q[tip] = f64::NAN;
+        assert!(model.dropped_violation(&q).is_nan());
+    }
+}

@@ -220,7 +220,13 @@ fn the_force_scale_by_hand() {
 }
 
 #[test]
-fn the_size_of_a_structure_is_its_diagonal() {
-    let model = build::<2>(|b| b.bar("bar", 1.0, [1.0, 1.0], [4.0, 5.0]).map(drop)).unwrap();
-    assert!((model.size() - 5.0).abs() < 1e-15);
+fn the_size_of_a_structure_is_its_diagonal_and_the_unit_a_power_of_1024_near_it() {
+    let of = |s: f64| build::<2>(|b| b.bar("bar", 1.0, [s, s], [4.0 * s, 5.0 * s]).map(drop)).unwrap();
+    for (s, unit) in
+        [(1.0, 1.0), (0.01, 1.0), (2.0, 1.0), (1e5, 1024.0 * 1024.0), (1e-6, 1.0 / 1024.0 / 1024.0)]
+    {
+        let model = of(s);
+        assert!((model.size() / (5.0 * s) - 1.0).abs() < 1e-15);
+        assert_eq!(model.unit(), unit, "{s:e}");
+    }
 }
