@@ -269,6 +269,7 @@ fn meaningless_moments_are_refused() {
     };
     let space = MomentAxes::Space;
     assert!(message(&|b| b.moment("m", ball, space, MOMENT, 1.0)).contains("put a force on it"));
+    assert!(message(&|b| b.moment("m", ball, MomentAxes::Body, MOMENT, 1.0)).contains("put a force on it"));
     assert!(message(&|b| b.moment("m", bar, MomentAxes::Body, MOMENT, 1.0)).contains("axes of space"));
     assert!(message(&|b| b.joint_moments("m", body, [1.0, 2.0], 1.0)).contains("holds a bar"));
     assert!(message(&|b| b.joint_moments("m", ball, [1.0, 2.0], 1.0)).contains("holds a bar"));

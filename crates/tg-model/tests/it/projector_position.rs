@@ -29,6 +29,7 @@ fn perturbed_coordinates_return_to_the_constraints() {
             assert!(moved.largest == change[moved.coordinate] && moved.largest < 20.0 * size + 1e-14);
             assert!(all(q.len()).into_iter().all(|i| model.free().contains(&i) || q[i] == start[i]));
             assert!(moved.iterations <= 8, "Newton converges quadratically: {moved:?}");
+            assert!(size < 1e-3 || moved.iterations >= 2, "once does not suffice: {moved:?}");
             assert!(size > 0.0 || moved.iterations <= 2, "nothing to do but rounding: {moved:?}");
         }
     }
