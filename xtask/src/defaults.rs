@@ -1,7 +1,7 @@
 //! `defaults`: what the default settings of the solvers cost and give.
 //!
 //! - `stepping`: remedies of a time step, tolerance of explicit ones;
-//! - `eigen`: dense or sparse eigenpairs, the limit of zero;
+//! - `eigen`: dense or sparse eigenpairs, the limit of zero; `modes`: what still is an equilibrium, modes along a parameter;
 //! - `equilibrium`: tolerance of forward statics, steps of continuation;
 //! - `homotopy`: settings of the paths to all equilibria; `loops`: of monodromy loops and certificates.
 
@@ -9,6 +9,7 @@ mod eigen;
 mod equilibrium;
 mod homotopy;
 mod loops;
+mod modes;
 mod stepping;
 
 use comfy_table::{Table, presets};
@@ -20,6 +21,7 @@ pub(crate) fn section() -> Result<String, TaskError> {
     let tables = [
         stepping::tables()?,
         eigen::tables()?,
+        modes::tables()?,
         equilibrium::tables()?,
         homotopy::tables()?,
         loops::tables()?,

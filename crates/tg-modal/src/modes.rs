@@ -24,7 +24,7 @@ pub struct ModeOptions {
     /// Part of the largest |ω²| up to which ω² counts as zero; see [`EigenOptions::zero`].
     pub zero: f64,
     /// Largest residual force per largest force, and largest constraint residual per size, that still is an equilibrium.
-    /// An imbalance ε shifts ω² by about 0.01 ε of the largest ω² (measured on the spine of the tests); 1e-8 is far above
+    /// How far an imbalance shifts ω²: docs/accuracy-and-speed.md, "Imbalance of an equilibrium"; 1e-8 is far above
     /// what Newton's method leaves (1e-12). Rest lengths copied from a table with six digits do not pass: find their
     /// equilibrium, or widen this knowingly.
     pub imbalance: f64,

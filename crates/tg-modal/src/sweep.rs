@@ -15,7 +15,7 @@ use crate::error::ModalError;
 use crate::modes::{ModeOptions, modes};
 use crate::tracking::{Front, Point, Step};
 
-/// How modes are found and followed.
+/// How modes are found and followed. What each setting does: docs/accuracy-and-speed.md, "Modes against a parameter".
 #[derive(Clone, Copy, Debug)]
 pub struct SweepOptions {
     /// Modes to follow (the lowest `count` at the first parameter, and what completes their last group of equal ω²), and
