@@ -55,6 +55,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
             "tg-coords",
             "tg-equilibria",
             "tg-fixtures",
+            "tg-homotopy",
             "tg-integrate",
             "tg-modal",
             "tg-model",
