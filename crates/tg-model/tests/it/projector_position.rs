@@ -242,3 +242,24 @@ fn a_massless_member_that_follows_others_is_projected_or_named() {
         assert!((found - expected).abs() < 1e-13, "{v:?}");
     }
 }
+
+#[test]
+fn what_cannot_be_reached_is_no_rounding() {
+    // The tip of a bar of 1 m is held 1.2 m from its foot: |u|² - 1 stays above 0.44.
+    let model = build::<2>(|b| {
+        let foot = b.anchor("foot", [0.0, 0.0])?;
+        let bar = b.bar("bar", 1.0, [0.0, 0.0], [0.6, 0.8])?;
+        b.joint("hinge", &[foot.into(), bar.node(0)], Share)?;
+        b.support("held", bar.node(1), 0, tg_model::Signal::ramp(0.0, 0.6, 1.0))
+    });
+    let model = model.unwrap();
+    for height in [0.8, 0.3, -0.5, 1e-3] {
+        let mut q = model.initial_coordinates();
+        let mut v = vec![0.0; q.len()];
+        model.prescribe(1.0, &mut q, &mut v);
+        let y = model.free()[0];
+        q[y] = height;
+        let error = Projector::new(&model).unwrap().position(&mut q).unwrap_err();
+        assert!(matches!(error, ProjectionError::NotConverged { residual, .. } if residual > 0.4), "{error}");
+    }
+}

@@ -26,6 +26,7 @@ fn check(model: &Model<2>, t: f64, v: &[f64], expected: [f64; 2]) {
     moving[2] += moving[0];
     let mut reactions = Reactions::new(model).unwrap();
     let found = reactions.at(t, &q, &moving).unwrap();
+    assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-8, "{found} against {expected}");
     }

@@ -287,3 +287,28 @@ fn the_worst_dropped_constraint_counts_per_size_wherever_it_stands() {
         assert!(model.dropped_violation(&q).is_nan());
     }
 }
+
+#[test]
+fn supports_of_one_point_agree_or_differ_by_their_rates_and_places() {
+    let twice = |first: Signal, second: Signal| {
+        build::<2>(|b| {
+            b.redundancies(Redundancies::Drop);
+            let bar = b.bar("bar", 1.0, [0.0, 0.0], [2.0, 0.0])?;
+            b.support("first", bar.at([0.5, 0.0]), 1, first)?;
+            b.support("second", bar.at([0.5, 0.0]), 1, second)
+        })
+    };
+    // Alike, however they move and wherever they are.
+    for signal in [Signal::sine(0.1, 1.0), Signal::Constant(0.1), Signal::ramp(0.2, 0.5, 1.0)] {
+        let model = twice(signal.clone(), signal).unwrap();
+        assert_eq!(model.report().redundant.len(), 1);
+    }
+    // Rates of 0.1 and 0.2 differ by a third of both together.
+    let sines = [Signal::sine(0.1, 1.0), Signal::sine(0.2, 1.0)];
+    for [first, second] in [sines.clone(), [sines[1].clone(), sines[0].clone()]] {
+        let Err(BuildError::ContradictoryConstraint { violation, .. }) = twice(first, second) else {
+            panic!("a contradiction")
+        };
+        assert!((violation - 1.0 / 3.0).abs() < 1e-12, "{violation}");
+    }
+}
