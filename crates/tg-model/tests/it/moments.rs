@@ -70,6 +70,7 @@ fn check_tangent<const D: usize>(model: &Model<D>, r: &mut Random, conservative:
     } else {
         assert!(asymmetry > 0.1, "{what} has no potential");
         assert_eq!(gradient.amax(), 0.0, "{what} is left out of the energy");
+        assert_eq!(model.potential(&q, &u), 0.0, "{what} is left out of the energy");
     }
     let largest = f.iter().fold(0.0_f64, |a, f| a.max(f.abs()));
     assert!((model.force_scale(at(&q)) - largest).abs() < 1e-13, "{what}: the only force there is");
