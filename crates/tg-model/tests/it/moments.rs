@@ -282,3 +282,19 @@ fn meaningless_moments_are_refused() {
     b.moment("m", body, space, MOMENT, 1.0).unwrap();
     assert!(matches!(b.load("m", bar.node(0), MOMENT, 1.0), Err(BuildError::DuplicateName { .. })));
 }
+
+#[test]
+fn a_moment_on_a_held_member_has_no_tangent() {
+    let entries = |loaded: bool| {
+        let mut b = ModelBuilder::<3>::new();
+        b.bar("free", 1.0, [5.0, 0.0, 0.0], [5.0, 1.0, 0.0]).unwrap();
+        let held = b.bar("held", 1.0, [0.0; 3], [0.0, 0.0, 1.0]).unwrap();
+        b.fix("foot", held.node(0)).unwrap();
+        b.fix("top", held.node(1)).unwrap();
+        if loaded {
+            b.moment("turn", held, MomentAxes::Space, MOMENT, 1.0).unwrap();
+        }
+        b.build().unwrap().stiffness_pattern().len()
+    };
+    assert_eq!(entries(true), entries(false));
+}
