@@ -16,6 +16,13 @@ fn arguments<'a>(scene: &'a str, folder: &'a str) -> Vec<&'a str> {
     [&["run", scene, "-o", folder][..], &settings].concat()
 }
 
+/// A run of a few rows, done; its arguments.
+fn short_run<'a>(scene: &'a str, folder: &'a str) -> [&'a str; 7] {
+    let line = ["run", scene, "--duration", "0.05", "-o", folder, "--no-view"];
+    assert!(run(&line).status.success());
+    line
+}
+
 /// What a run leaves, but for the time of day and for what is said only where it was begun anew.
 fn content(folder: &str) -> (Vec<Vec<u64>>, [Vec<u8>; 2], Value) {
     let mut results = Results::open(Path::new(folder)).unwrap();
@@ -105,8 +112,7 @@ fn an_answer_that_cannot_be_printed_is_told_and_a_reader_that_goes_away_is_not()
 fn a_checkpoint_that_does_not_fit_is_refused_and_the_rows_stay() {
     let (_keep, folder) = temporary("out");
     let scene = scene("tower.toml");
-    let line = ["run", &scene, "--duration", "0.05", "-o", &folder, "--no-view"];
-    assert!(run(&line).status.success());
+    let line = short_run(&scene, &folder);
     let results = Results::open(Path::new(&folder)).unwrap();
     let (rows, sound) = (results.table().unwrap().rows(), results.checkpoint::<Value>().unwrap().unwrap());
     let changed = |place: &str, value: Value| {
@@ -143,8 +149,7 @@ fn a_checkpoint_that_does_not_fit_is_refused_and_the_rows_stay() {
 fn damage_is_refused() {
     let (_keep, folder) = temporary("out");
     let scene = scene("tower.toml");
-    let line = ["run", &scene, "--duration", "0.05", "-o", &folder, "--no-view"];
-    assert!(run(&line).status.success());
+    let line = short_run(&scene, &folder);
     for name in ["run.json", "parts.json", "checkpoint.json", "trajectory/part-00000.parquet"] {
         let path = Path::new(&folder).join(name);
         let whole = fs::read(&path).unwrap();

@@ -86,7 +86,7 @@ impl Symplectic<'_> {
                 self.system.mechanics.active_set(at, taut);
             }
             // New factors serve until nothing falls any more.
-            let falls = iterations == 0 || fell <= SLOW || fell * fell_before <= SLOW * SLOW;
+            let falls = fell <= SLOW || fell * fell_before <= SLOW * SLOW;
             has_factors &= falls || (is_small && factored > 0);
             fell_before = if iterations == 0 { 1.0 } else { fell };
             before = residual;
